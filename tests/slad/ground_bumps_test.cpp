@@ -1,6 +1,9 @@
 #include "engine/slad/terrain/ground_bumps.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -37,6 +40,32 @@ TEST(GroundBumps, AreWhatNoiseDoesNotExplain) {
         EXPECT_NEAR(bumps.At(r, c), bumps_m, 0.35 * bumps_m + 0.8 * kNoise_m) << r << ' ' << c;
       }
     }
+  }
+}
+
+// Against sorted lists: what is found solves the header's equation to a 64th of the largest.
+TEST(GroundBumps, SolveTheEquationOfTheQuartile) {
+  constexpr double kOfNormal = 0.31864;
+  for (const int known : {25, 26, 27, 28, 63, 97, 100}) {
+    const GridF noise_m(10, 10, 0.004F);
+    GridF off_m = Normal(10, 10, [](int, int) { return 0.03; });
+    for (int i = known; i < 100; ++i) {
+      off_m.cells()[static_cast<std::size_t>(i)] = kUnknownValue;
+    }
+    const auto quartile = [&](double bumps_m) {
+      std::vector<double> squares;
+      for (int i = 0; i < known; ++i) {
+        const auto off = static_cast<double>(off_m.cells()[static_cast<std::size_t>(i)]);
+        squares.push_back(off * off / (0.004 * 0.004 + bumps_m * bumps_m));
+      }
+      std::sort(squares.begin(), squares.end());
+      return std::sqrt(squares[squares.size() / 4]);
+    };
+    const double largest_m = quartile(0) * 0.004 / kOfNormal;
+    const double found_m = GroundBumps(off_m, noise_m, 0.15, 1).At(5, 5);
+    ASSERT_GT(found_m, 0) << known;
+    EXPECT_GT(quartile(found_m), kOfNormal * (1 - 1e-5)) << known;
+    EXPECT_LE(quartile(found_m + 1.01 * largest_m / 64), kOfNormal) << known;
   }
 }
 

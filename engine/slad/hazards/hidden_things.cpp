@@ -5,9 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include <opencv2/core.hpp>
-
 #include "engine/model/site_standing.h"
+#include "engine/slad/side_by_side.h"
 
 namespace palace {
 namespace {
@@ -153,22 +152,13 @@ void SumAlong(const float* row, int cols, int reach, float outside, std::vector<
   }
 }
 
-template <typename RowWork>
-void ForRows(int rows, RowWork work) {
-  cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
-    for (int r = range.start; r < range.end; ++r) {
-      work(r);
-    }
-  });
-}
-
 /// Sums of the cells' figures over the disc around each cell; a cell beyond the map has `outside`.
 GridF OverDiscs(const NarrowView& view, double radius_m, float outside, const auto& of_cell) {
   const int rows = view.narrow.share.rows() / kPerCell, cols = view.narrow.share.cols() / kPerCell;
   const double radius = std::min(radius_m / view.cell_m, 1.0 * std::max(rows, cols));
   const int reach = static_cast<int>(radius);
   std::vector<std::vector<float>> sums(static_cast<std::size_t>(rows));
-  ForRows(rows, [&](int r) {
+  ForEach(rows, [&](int r) {
     std::vector<float> in_cell(static_cast<std::size_t>(cols));
     for (int c = 0; c < cols; ++c) {
       in_cell[static_cast<std::size_t>(c)] = static_cast<float>(of_cell(Cell{r, c}));
@@ -176,7 +166,7 @@ GridF OverDiscs(const NarrowView& view, double radius_m, float outside, const au
     SumAlong(in_cell.data(), cols, reach, outside, sums[static_cast<std::size_t>(r)]);
   });
   GridF in_disc(rows, cols, 0.0F);
-  ForRows(rows, [&](int r) {
+  ForEach(rows, [&](int r) {
     float* out = in_disc.row(r);
     for (int dr = -reach; dr <= reach; ++dr) {
       const int half = static_cast<int>(std::sqrt(radius * radius - dr * dr));

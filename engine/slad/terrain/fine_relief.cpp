@@ -6,10 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include <opencv2/core.hpp>
-
 #include "engine/core/check.h"
 #include "engine/core/frames.h"
+#include "engine/slad/side_by_side.h"
 #include "engine/slad/terrain/laid_over.h"
 
 namespace palace {
@@ -41,8 +40,7 @@ void FineRelief::MoveTo(const GridGeometry& map) {
 }
 
 void FineRelief::AddRows(const RangeMap& range, const ImageU8& left, const LaidOver& laid,
-                         const PlaneCorrection& off, int first, int end,
-                         Grid<FinePlace>& seen) const {
+                         const PlaneCorrection& off, int first, int end, Stripe& stripe) const {
   const RigidTransform& X_WC = range.pose->X_WC;
   const PinholeCamera& camera = range.camera;
   const auto focal_times_baseline = static_cast<float>(range.FocalTimesBaseline());
@@ -56,6 +54,7 @@ void FineRelief::AddRows(const RangeMap& range, const ImageU8& left, const LaidO
   const auto north_tilt = static_cast<float>(off.north_tilt),
              east_tilt = static_cast<float>(off.east_tilt);
   const Eigen::Vector3f step_W = (X_WC.R.col(0) / camera.fx_px).cast<float>();
+  int first_row = places_.rows, last_row = -1;
   for (int y = first; y < end; ++y) {
     const Eigen::Vector3f row_W = (X_WC.R * Eigen::Vector3d(-camera.cx_px / camera.fx_px,
                                                             (y - camera.cy_px) / camera.fy_px, 1))
@@ -88,7 +87,10 @@ void FineRelief::AddRows(const RangeMap& range, const ImageU8& left, const LaidO
       const float net = (g * g - kGradientNoise * s2) * weight;
       const float answer = -e * g * weight * per_pixel_m;
       using P = FinePlace;
-      auto& of = seen.at(static_cast<int>(row), static_cast<int>(col)).of;
+      const Cell place{static_cast<int>(row), static_cast<int>(col)};
+      first_row = std::min(first_row, place.row);
+      last_row = std::max(last_row, place.row);
+      auto& of = stripe.places.at(place).of;
       of[P::kNet] += net;
       of[P::kGross] += g * g * weight;
       of[P::kHeight] += height_m * net + answer;
@@ -100,6 +102,31 @@ void FineRelief::AddRows(const RangeMap& range, const ImageU8& left, const LaidO
       of[P::kShared] += g * c * weight;
       of[P::kEnergy] += e * e / (s2 + kAstray2 * g * g);
       of[P::kPixels] += 1;
+    }
+  }
+  stripe.first_row = first_row;
+  stripe.end_row = last_row + 1;
+}
+
+void FineRelief::TakeRow(int row, float remember) {
+  for (int col = 0; col < places_.cols; ++col) {
+    FinePlace now;
+    for (Stripe& stripe : stripes_) {
+      if (row < stripe.first_row || row >= stripe.end_row) {
+        continue;
+      }
+      FinePlace& told = stripe.places.at(row, col);
+      for (std::size_t k = 0; k < now.of.size(); ++k) {
+        now.of[k] += told.of[k];
+      }
+      told = {};
+    }
+    // What this frame does not see stays as it is.
+    if (now.of[FinePlace::kGross] > 0) {
+      auto& all = seen_.at(row, col).of;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        all[k] = remember * all[k] + now.of[k];
+      }
     }
   }
 }
@@ -115,29 +142,16 @@ void FineRelief::Add(const RangeMap& range, const ImageU8& left, const ImageU8& 
     // About the ground's, so that floats keep their digits.
     reference_m_ = HeightFromDown(range.pose->X_WC.p.z());
   }
-  std::vector<Grid<FinePlace>> stripes(kStripes, Grid<FinePlace>(places_.rows, places_.cols));
-  cv::parallel_for_(cv::Range(0, kStripes), [&](const cv::Range& some) {
-    for (int k = some.start; k < some.end; ++k) {
-      AddRows(range, left, laid, off, left.height() * k / kStripes,
-              left.height() * (k + 1) / kStripes, stripes[static_cast<std::size_t>(k)]);
-    }
+  if (stripes_.empty() || stripes_[0].places.rows() != places_.rows ||
+      stripes_[0].places.cols() != places_.cols) {
+    stripes_.assign(kStripes, {Grid<FinePlace>(places_.rows, places_.cols)});
+  }
+  ForEach(kStripes, [&](int k) {
+    AddRows(range, left, laid, off, left.height() * k / kStripes,
+            left.height() * (k + 1) / kStripes, stripes_[static_cast<std::size_t>(k)]);
   });
   const float remember = frames_ < memory ? 1.0F : 1.0F - 1.0F / static_cast<float>(memory);
-  for (std::size_t i = 0; i < seen_.cells().size(); ++i) {
-    FinePlace now;
-    for (const Grid<FinePlace>& stripe : stripes) {
-      for (std::size_t k = 0; k < now.of.size(); ++k) {
-        now.of[k] += stripe.cells()[i].of[k];
-      }
-    }
-    // What this frame does not see stays as it is.
-    if (now.of[FinePlace::kGross] > 0) {
-      auto& all = seen_.cells()[i].of;
-      for (std::size_t k = 0; k < all.size(); ++k) {
-        all[k] = remember * all[k] + now.of[k];
-      }
-    }
-  }
+  ForEach(places_.rows, [&](int row) { TakeRow(row, remember); });
   ++frames_;
 }
 

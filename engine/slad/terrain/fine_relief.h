@@ -27,6 +27,8 @@
 // Deviations: one unknown a cell, linear once about a smooth ground, noise out of the information.
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Dense>
 
 #include "engine/model/elevation_map.h"
@@ -64,11 +66,20 @@ class FineRelief {
   static GridGeometry PlacesOf(const GridGeometry& map);
 
  private:
+  /// What the pixels of a stripe of one picture tell; zeros between frames.
+  struct Stripe {
+    Grid<FinePlace> places;
+    int first_row = 0, end_row = 0;  ///< of places that it tells of
+  };
+
   void AddRows(const RangeMap& range, const ImageU8& left, const LaidOver& laid,
-               const PlaneCorrection& off, int first, int end, Grid<FinePlace>& seen) const;
+               const PlaneCorrection& off, int first, int end, Stripe& stripe) const;
+  /// Adds a row of the stripes to what is known; `remember`: the share of that which is kept.
+  void TakeRow(int row, float remember);
 
   GridGeometry places_;
   Grid<FinePlace> seen_;
+  std::vector<Stripe> stripes_;
   double reference_m_ = 0;
   int frames_ = 0;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/slad/side_by_side.h"
+
 namespace palace {
 namespace {
 
@@ -56,7 +58,8 @@ FinePlane PlaneThrough(const FineSum& sum) {
 
 FineSums::FineSums(const Grid<FineKnown>& known, const GridGeometry& places, double reference_m)
     : places_(places), reference_m_(reference_m), corners_(places.rows + 1, places.cols + 1) {
-  for (int r = 0; r < places.rows; ++r) {
+  // Along rows, then down columns: both are shared among threads.
+  ForEach(places.rows, [&](int r) {
     FineSum row;
     for (int c = 0; c < places.cols; ++c) {
       const FineKnown& place = known.at(r, c);
@@ -67,11 +70,18 @@ FineSums::FineSums(const Grid<FineKnown>& known, const GridGeometry& places, dou
                    off = part * static_cast<double>(place.off);
       const double x = c - places.cols / 2.0, y = r - places.rows / 2.0;
       row += FineSum{{a, a * x, a * y, a * x * x, a * x * y, a * y * y, j, j * x, j * y, g, off}};
-      FineSum& corner = corners_.at(r + 1, c + 1);
-      corner = corners_.at(r, c + 1);
-      corner += row;
+      corners_.at(r + 1, c + 1) = row;
     }
-  }
+  });
+  constexpr int kStrip = 16;  // columns
+  ForEach((places.cols + kStrip - 1) / kStrip, [&](int strip) {
+    const int end = std::min((strip + 1) * kStrip, places.cols);
+    for (int r = 1; r < places.rows; ++r) {
+      for (int c = strip * kStrip; c < end; ++c) {
+        corners_.at(r + 1, c + 1) += corners_.at(r, c + 1);
+      }
+    }
+  });
 }
 
 int FineSums::side() const {
@@ -86,7 +96,13 @@ FineSum FineSums::Over(int row, int col, int side, int reach) const {
 FineSum FineSums::Within(int row, int row_end, int col, int col_end) const {
   const int r0 = std::clamp(row, 0, places_.rows), r1 = std::clamp(row_end, 0, places_.rows),
             c0 = std::clamp(col, 0, places_.cols), c1 = std::clamp(col_end, 0, places_.cols);
-  return (corners_.at(r1, c1) - corners_.at(r0, c1)) - (corners_.at(r1, c0) - corners_.at(r0, c0));
+  const auto &a = corners_.at(r1, c1).of, &b = corners_.at(r0, c1).of, &c = corners_.at(r1, c0).of,
+             &d = corners_.at(r0, c0).of;
+  FineSum sum;
+  for (std::size_t k = 0; k < sum.of.size(); ++k) {
+    sum.of[k] = (a[k] - b[k]) - (c[k] - d[k]);
+  }
+  return sum;
 }
 
 }  // namespace palace

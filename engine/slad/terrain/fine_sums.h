@@ -28,7 +28,8 @@ struct FineKnown {
 /// with places; of G; of R.
 struct FineSum {
   enum { kA, kAx, kAy, kAxx, kAxy, kAyy, kJ, kJx, kJy, kG, kR, kCount };
-  std::array<double, kCount> of{};
+  static constexpr int kStored = 12;  ///< even: pairs are summed together
+  std::array<double, kStored> of{};
 
   /// 1/m^2: to a metre at least. What is left of sums over nothing is rounding.
   static constexpr double kLeastNet = 1;

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <iterator>
 #include <utility>
-
-#include <opencv2/core.hpp>
+#include <vector>
 
 #include "engine/core/check.h"
 #include "engine/core/frames.h"
+#include "engine/slad/side_by_side.h"
 #include "engine/slad/terrain/ground_bumps.h"
 #include "engine/slad/terrain/square_and_frame.h"
 
@@ -45,20 +45,21 @@ struct Figures {
 /// Every so many places are looked at that squares overlap by half.
 int StrideOf(int side) { return std::max(1, side / 2); }
 
+int LooksOf(int places, int stride) { return (places + stride - 1) / stride; }
+
 Figures Measure(const FineSums& sums, int side, int ring_to) {
   const int rows = sums.places().rows, cols = sums.places().cols;
   const GridF unknown(rows, cols, kUnknownValue);
   Figures figures{Grid<ShownBySquare>(rows, cols), unknown, unknown};
-  cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
-    const int stride = StrideOf(side);
-    for (int r = (range.start + stride - 1) / stride * stride; r < range.end; r += stride) {
-      for (int c = 0; c < cols; c += stride) {
-        const ShownBySquare shown = OffFrame(sums, {r, c, side, ring_to});
-        if (shown.told) {
-          figures.shown.at(r, c) = shown;
-          figures.off_m.at(r, c) = static_cast<float>(shown.off_m);
-          figures.sigma_m.at(r, c) = static_cast<float>(shown.sigma_m);
-        }
+  const int stride = StrideOf(side);
+  ForEach(LooksOf(rows, stride), [&](int look) {
+    const int r = look * stride;
+    for (int c = 0; c < cols; c += stride) {
+      const ShownBySquare shown = OffFrame(sums, {r, c, side, ring_to});
+      if (shown.told) {
+        figures.shown.at(r, c) = shown;
+        figures.off_m.at(r, c) = static_cast<float>(shown.off_m);
+        figures.sigma_m.at(r, c) = static_cast<float>(shown.sigma_m);
       }
     }
   });
@@ -76,8 +77,8 @@ Asked Ask(const FineSums& sums, const SquareAndFrame& at, const ShownBySquare& o
           double bumps_m, double noise_m, bool stood) {
   const double beyond = stood ? kStillStandsOut_sigmas : kStandsOut_sigmas;
   const auto stands_out = [&](const ShownBySquare& shown) {
-    const double sigma_m = std::hypot(std::hypot(shown.sigma_m, bumps_m), noise_m);
-    return shown.told && std::abs(shown.off_m) > beyond * sigma_m;
+    return shown.told &&
+           std::abs(shown.off_m) > beyond * std::hypot(std::hypot(shown.sigma_m, bumps_m), noise_m);
   };
   Asked asked{off_frame};
   if (stands_out(off_frame)) {
@@ -140,13 +141,22 @@ void RaiseTop(const ElevationMap& map, Cell cell, const Eigen::Vector3d& p_WC,
   }
 }
 
-/// Raises the top of the cells under a square that stands out, to `times` as much as it shows.
-void RaiseUnder(const SquareAndFrame& at, const ShownBySquare& shown, double level_m, double times,
-                const Eigen::Vector3d& p_WC, const ElevationMap& map, GridF& top_m) {
+/// A square that stands out.
+struct Standing {
+  SquareAndFrame at;
+  ShownBySquare shown;
+  double level_m = 0;  ///< of the ground around, in W
+  double times = 1;    ///< so much higher it is than it shows
+};
+
+/// Raises the top of the cells under a square that stands out.
+void RaiseUnder(const Standing& square, const Eigen::Vector3d& p_WC, const ElevationMap& map,
+                GridF& top_m) {
+  const SquareAndFrame& at = square.at;
   NarrowThing thing;
-  thing.height_m = std::clamp(times * shown.off_m, -kTallest_m, kTallest_m);
-  thing.top_m = level_m + thing.height_m;
-  thing.off_m = std::clamp(times * shown.off_laid_m, 0.0, std::abs(thing.height_m));
+  thing.height_m = std::clamp(square.times * square.shown.off_m, -kTallest_m, kTallest_m);
+  thing.top_m = square.level_m + thing.height_m;
+  thing.off_m = std::clamp(square.times * square.shown.off_laid_m, 0.0, std::abs(thing.height_m));
   const int first_row = at.row - at.side / 2, first_col = at.col - at.side / 2;
   for (int r = first_row / kPerCell; r <= (first_row + at.side - 1) / kPerCell; ++r) {
     for (int c = first_col / kPerCell; c <= (first_col + at.side - 1) / kPerCell; ++c) {
@@ -176,16 +186,23 @@ void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& 
       map.narrow.ring_m = (0.5 + scale.ring_to) * square_m;
     }
     const int stride = StrideOf(side);
-    for (int r = 0; r < places.rows; r += stride) {
+    const int looks = LooksOf(places.rows, stride);
+    std::vector<std::vector<Standing>> standing_out(static_cast<std::size_t>(looks));
+    const auto look_along = [&](int r, std::vector<Standing>& found) {
       for (int c = 0; c < places.cols; c += stride) {
+        std::uint8_t& stood = standing.at(r, c);
+        const bool stood_out = (stood >> k & 1U) != 0;
+        stood = static_cast<std::uint8_t>(stood & ~(1U << k));
+        if (!figures.shown.at(r, c).told) {
+          continue;
+        }
         const SquareAndFrame at{r, c, side, scale.ring_to};
         const double bumps_m = bumps.At(r, c);
         const double repeated_m = std::sqrt(At(repeated_m2, r / kPerCell, c / kPerCell));
         const double worst_m = narrowest ? 0 : kWorstTexture * repeated_m;
-        std::uint8_t& stood = standing.at(r, c);
         const auto [shown, stands_out] =
-            Ask(sums, at, figures.shown.at(r, c), bumps_m, worst_m, (stood >> k & 1U) != 0);
-        stood = static_cast<std::uint8_t>((stood & ~(1U << k)) | (stands_out ? 1U << k : 0U));
+            Ask(sums, at, figures.shown.at(r, c), bumps_m, worst_m, stood_out);
+        stood = static_cast<std::uint8_t>(stood | (stands_out ? 1U << k : 0U));
         if (!(shown.told && std::abs(shown.off_m) <= kTallest_m)) {
           continue;
         }
@@ -202,9 +219,15 @@ void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& 
         }
         if (stands_out) {
           // What fills a wider square shows all of its height.
-          const double times = std::max(1.0, (1 + smear) / scale.sides);
-          RaiseUnder(at, shown, level_m, times, view.p_WC, map, top_m);
+          found.push_back({at, shown, level_m, std::max(1.0, (1 + smear) / scale.sides)});
         }
+      }
+    };
+    ForEach(looks,
+            [&](int i) { look_along(i * stride, standing_out[static_cast<std::size_t>(i)]); });
+    for (const std::vector<Standing>& row : standing_out) {
+      for (const Standing& square : row) {
+        RaiseUnder(square, view.p_WC, map, top_m);
       }
     }
   }

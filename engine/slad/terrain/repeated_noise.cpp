@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/core/median.h"
+#include "engine/slad/side_by_side.h"
 
 namespace palace {
 namespace {
@@ -54,8 +55,8 @@ double Noise(const FinePlace& place) {
 GridF BlockTimes(const GridF& squared) {
   GridF times((squared.rows() + kBlock - 1) / kBlock, (squared.cols() + kBlock - 1) / kBlock,
               kUnknownValue);
-  std::vector<float> answers;
-  for (int i = 0; i < times.rows(); ++i) {
+  ForEach(times.rows(), [&](int i) {
+    std::vector<float> answers;
     for (int j = 0; j < times.cols(); ++j) {
       answers.clear();
       for (int r = i * kBlock; r < std::min((i + 1) * kBlock, squared.rows()); ++r) {
@@ -73,7 +74,7 @@ GridF BlockTimes(const GridF& squared) {
         times.at(i, j) = static_cast<float>(std::max(1.0, by_chance * median / kMedianOfSquare));
       }
     }
-  }
+  });
   return times;
 }
 
@@ -94,9 +95,11 @@ void FillUnknown(GridF& times) {
 
 GridF VarianceTimes(const Grid<FinePlace>& places) {
   GridF squared(places.rows(), places.cols());
-  for (std::size_t i = 0; i < squared.cells().size(); ++i) {
-    squared.cells()[i] = SquaredAnswer(places.cells()[i]);
-  }
+  ForEach(squared.rows(), [&](int r) {
+    for (int c = 0; c < squared.cols(); ++c) {
+      squared.at(r, c) = SquaredAnswer(places.at(r, c));
+    }
+  });
   GridF blocks = BlockTimes(squared);
   FillUnknown(blocks);
   GridF times(places.rows(), places.cols());
@@ -106,7 +109,7 @@ GridF VarianceTimes(const Grid<FinePlace>& places) {
     const int low = std::min(static_cast<int>(at), std::max(0, blocks_count - 2));
     return std::pair{low, at - static_cast<float>(low)};
   };
-  for (int r = 0; r < places.rows(); ++r) {
+  ForEach(places.rows(), [&](int r) {
     const auto [i, down] = between(r, blocks.rows());
     const int below = std::min(i + 1, blocks.rows() - 1);
     for (int c = 0; c < places.cols(); ++c) {
@@ -116,7 +119,7 @@ GridF VarianceTimes(const Grid<FinePlace>& places) {
           (1 - down) * ((1 - right) * blocks.at(i, j) + right * blocks.at(i, beside)) +
           down * ((1 - right) * blocks.at(below, j) + right * blocks.at(below, beside));
     }
-  }
+  });
   return times;
 }
 
@@ -124,12 +127,13 @@ Grid<FineKnown> WithRepeatedNoise(const Grid<FinePlace>& places) {
   using P = FinePlace;
   const GridF times = VarianceTimes(places);
   Grid<FineKnown> known(places.rows(), places.cols());
-  for (std::size_t i = 0; i < known.cells().size(); ++i) {
-    const auto& of = places.cells()[i].of;
-    known.cells()[i] = {of[P::kNet],
-                        times.cells()[i] * static_cast<float>(Noise(places.cells()[i])),
+  ForEach(known.rows(), [&](int r) {
+    for (int c = 0; c < known.cols(); ++c) {
+      const auto& of = places.at(r, c).of;
+      known.at(r, c) = {of[P::kNet], times.at(r, c) * static_cast<float>(Noise(places.at(r, c))),
                         of[P::kHeight], of[P::kOff]};
-  }
+    }
+  });
   return known;
 }
 

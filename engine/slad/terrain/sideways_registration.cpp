@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include <opencv2/core.hpp>
-
 #include "engine/core/check.h"
+#include "engine/slad/side_by_side.h"
 
 namespace palace {
 namespace {
@@ -27,21 +28,26 @@ GridGeometry Finer(const GridGeometry& map) {
 GridF GreyFromAbove(const RangeMap& range, const ImageU8& left, const GridGeometry& g) {
   const RigidTransform& X_WC = range.pose->X_WC;
   const PinholeCamera& camera = range.camera;
-  GridF sum(g.rows, g.cols, 0.0F), count(g.rows, g.cols, 0.0F);
   const Eigen::Vector3d step_W = X_WC.R.col(0) / camera.fx_px;
-  for (int y = 0; y < left.height(); ++y) {
+  constexpr Cell kNone{-1, -1};
+  Image<Cell> cell_of(left.width(), left.height(), kNone);
+  ForEach(left.height(), [&](int y) {
     const Eigen::Vector3d row_W = X_WC.R * Eigen::Vector3d(-camera.cx_px / camera.fx_px,
                                                            (y - camera.cy_px) / camera.fy_px, 1);
     for (int x = 0; x < left.width(); ++x) {
       const auto z = static_cast<double>(range.depth_m.at(x, y));
-      if (!(z > 0) || !std::isfinite(z)) {
-        continue;
+      if (z > 0 && std::isfinite(z)) {
+        const Eigen::Vector3d p_W = X_WC.p + z * (row_W + x * step_W);
+        cell_of.at(x, y) = g.CellFromPoint(p_W.x(), p_W.y()).value_or(kNone);
       }
-      const Eigen::Vector3d p_W = X_WC.p + z * (row_W + x * step_W);
-      if (const auto cell = g.CellFromPoint(p_W.x(), p_W.y())) {
-        sum.at(*cell) += static_cast<float>(left.at(x, y));
-        count.at(*cell) += 1;
-      }
+    }
+  });
+  GridF sum(g.rows, g.cols, 0.0F), count(g.rows, g.cols, 0.0F);
+  for (std::size_t i = 0; i < cell_of.pixels().size(); ++i) {
+    const Cell& cell = cell_of.pixels()[i];
+    if (cell.row >= 0) {
+      sum.at(cell) += static_cast<float>(left.pixels()[i]);
+      count.at(cell) += 1;
     }
   }
   for (std::size_t i = 0; i < sum.cells().size(); ++i) {
@@ -66,15 +72,17 @@ GridF SquareSums(const GridF& values) {
       }
     }
   }
-  for (int c = 0; c < cols; ++c) {
-    double run = 0;
-    for (int r = -kLocal_cells; r < rows; ++r) {
-      run += r + kLocal_cells < rows ? static_cast<double>(along.at(r + kLocal_cells, c)) : 0.0;
-      run -=
-          r - kLocal_cells - 1 >= 0 ? static_cast<double>(along.at(r - kLocal_cells - 1, c)) : 0.0;
-      if (r >= 0) {
-        sums.at(r, c) = static_cast<float>(run);
-      }
+  std::vector<double> run(static_cast<std::size_t>(cols), 0.0);
+  const auto add_row = [&](int r, double times) {
+    for (int c = 0; r >= 0 && r < rows && c < cols; ++c) {
+      run[static_cast<std::size_t>(c)] += times * static_cast<double>(along.at(r, c));
+    }
+  };
+  for (int r = -kLocal_cells; r < rows; ++r) {
+    add_row(r + kLocal_cells, 1);
+    add_row(r - kLocal_cells - 1, -1);
+    for (int c = 0; r >= 0 && c < cols; ++c) {
+      sums.at(r, c) = static_cast<float>(run[static_cast<std::size_t>(c)]);
     }
   }
   return sums;
@@ -122,54 +130,99 @@ struct CellShift {
   int rows = 0, cols = 0;  ///< what is at (r, c) of the frame lies at (r + rows, c + cols)
 };
 
-/// Normalised correlation of the frame so shifted with the mosaic; -1 with too little in common.
-double Correlation(const Detail& frame, const Detail& mosaic, const CellShift& shift,
-                   int least_common) {
-  const int rows = frame.off.rows(), cols = frame.off.cols();
-  const int r0 = std::max(0, -shift.rows), r1 = std::min(rows, rows - shift.rows);
-  const int c0 = std::max(0, -shift.cols), c1 = std::min(cols, cols - shift.cols);
-  double fm = 0, ff = 0, mm = 0, common = 0;
-  for (int r = r0; r < r1; ++r) {
-    const float *f = frame.off.row(r), *fk = frame.known.row(r);
-    const float *m = mosaic.off.row(r + shift.rows) + shift.cols,
-                *mk = mosaic.known.row(r + shift.rows) + shift.cols;
-    float row_fm = 0, row_ff = 0, row_mm = 0, row_common = 0;
-    for (int c = c0; c < c1; ++c) {
-      row_fm += f[c] * m[c];  // 0 where either is unknown
-      row_ff += f[c] * f[c] * mk[c];
-      row_mm += m[c] * m[c] * fk[c];
-      row_common += fk[c] * mk[c];
-    }
-    fm += static_cast<double>(row_fm);
-    ff += static_cast<double>(row_ff);
-    mm += static_cast<double>(row_mm);
-    common += static_cast<double>(row_common);
+/// Normalised correlations of a frame with the mosaic, for the shifts around one: -1 with too
+/// little in common.
+class Correlations {
+ public:
+  /// For `reach` cells each way from `middle`. The rows of shifts are shared among threads.
+  Correlations(const Detail& frame, const Detail& mosaic, const CellShift& middle, int reach,
+               int least_common)
+      : middle_(middle), reach_(reach), of_(2 * reach + 1, 2 * reach + 1, -1) {
+    const int blocks = (of_.cols() + kLanes - 1) / kLanes;
+    // Beyond its rim nothing of the mosaic is known.
+    const int pad = std::abs(middle.cols) + reach + kLanes;
+    const Detail padded{Padded(mosaic.off, pad), Padded(mosaic.known, pad)};
+    ForEach(of_.rows() * blocks, [&](int i) {
+      const int row = i / blocks, col = i % blocks * kLanes;
+      const Sums sums =
+          SumUp(frame, padded, middle.rows + row - reach, pad + middle.cols + col - reach);
+      for (int lane = 0; lane < std::min(kLanes, of_.cols() - col); ++lane) {
+        if (sums.common[lane] >= least_common && sums.ff[lane] > 0 && sums.mm[lane] > 0) {
+          of_.at(row, col + lane) = sums.fm[lane] / std::sqrt(sums.ff[lane] * sums.mm[lane]);
+        }
+      }
+    });
   }
-  return common >= least_common && ff > 0 && mm > 0 ? fm / std::sqrt(ff * mm) : -1;
-}
 
-struct Peak {
-  CellShift at;
-  double correlation = -1;
-};
+  /// What is at (r, c) of the frame lies at (r + rows, c + cols) of the mosaic.
+  double At(const CellShift& shift) const {
+    return of_.at(shift.rows - middle_.rows + reach_, shift.cols - middle_.cols + reach_);
+  }
 
-/// The first of the best in the order of rows and columns, however many threads look.
-Peak BestAround(const Detail& frame, const Detail& mosaic, const CellShift& middle, int reach,
-                int least_common) {
-  const int side = 2 * reach + 1;
-  const auto shift_of = [&](int i) {
-    return CellShift{middle.rows + i / side - reach, middle.cols + i % side - reach};
-  };
-  std::vector<double> correlations(static_cast<std::size_t>(side) * side);
-  cv::parallel_for_(cv::Range(0, side * side), [&](const cv::Range& range) {
-    for (int i = range.start; i < range.end; ++i) {
-      correlations[static_cast<std::size_t>(i)] =
-          Correlation(frame, mosaic, shift_of(i), least_common);
+  /// The first of the best in the order of rows and columns, `reach` each way from the middle;
+  /// empty where none has enough in common.
+  std::optional<CellShift> Best(int reach) const {
+    std::optional<CellShift> best;
+    for (int rows = middle_.rows - reach; rows <= middle_.rows + reach; ++rows) {
+      for (int cols = middle_.cols - reach; cols <= middle_.cols + reach; ++cols) {
+        const CellShift shift{rows, cols};
+        if (At(shift) > (best ? At(*best) : -1.0)) {
+          best = shift;
+        }
+      }
     }
-  });
-  const auto best = std::max_element(correlations.begin(), correlations.end());
-  return *best > -1 ? Peak{shift_of(static_cast<int>(best - correlations.begin())), *best} : Peak{};
-}
+    return best;
+  }
+
+ private:
+  /// Shifts beside each other are summed together: one after the other each sum would wait for
+  /// itself.
+  static constexpr int kLanes = 8;
+  using Lanes = Eigen::Array<float, kLanes, 1>;
+  using Sum = Eigen::Array<double, kLanes, 1>;
+  struct Sums {
+    Sum fm = Sum::Zero(), ff = Sum::Zero(), mm = Sum::Zero(), common = Sum::Zero();
+  };
+
+  static GridF Padded(const GridF& layer, int pad) {
+    GridF padded(layer.rows(), layer.cols() + 2 * pad, 0.0F);
+    for (int r = 0; r < layer.rows(); ++r) {
+      std::copy_n(layer.row(r), layer.cols(), padded.row(r) + pad);
+    }
+    return padded;
+  }
+
+  /// `first_col`: of the padded mosaic, under the frame's first in the first lane.
+  static Sums SumUp(const Detail& frame, const Detail& mosaic, int down, int first_col) {
+    const int rows = frame.off.rows(), cols = frame.off.cols();
+    Sums sums;
+    for (int r = std::max(0, -down); r < std::min(rows, rows - down); ++r) {
+      const float *f = frame.off.row(r), *fk = frame.known.row(r);
+      const float *m = mosaic.off.row(r + down) + first_col,
+                  *mk = mosaic.known.row(r + down) + first_col;
+      Lanes fm = Lanes::Zero(), ff = fm, mm = fm, common = fm;
+      for (int c = 0; c < cols; ++c) {
+        if (fk[c] == 0) {
+          continue;  // 0 in all
+        }
+        const Lanes grey = Eigen::Map<const Lanes>(m + c), known = Eigen::Map<const Lanes>(mk + c);
+        fm += f[c] * grey;
+        ff += f[c] * f[c] * known;
+        mm += grey * grey;
+        common += known;
+      }
+      sums.fm += fm.cast<double>();
+      sums.ff += ff.cast<double>();
+      sums.mm += mm.cast<double>();
+      sums.common += common.cast<double>();
+    }
+    return sums;
+  }
+
+  CellShift middle_;
+  int reach_;
+  Grid<double> of_;
+};
 
 /// Vertex of the parabola through the peak and the values beside it, in cells.
 double Vertex(double before, double peak, double after) {
@@ -215,23 +268,20 @@ SidewaysRegistration::Shift SidewaysRegistration::Add(const RangeMap& range, con
   Eigen::Vector2d follow_m = Eigen::Vector2d::Zero();
   if (!first) {
     Detail frame, mosaic;
-    cv::parallel_for_(cv::Range(0, 2), [&](const cv::Range& of) {
-      for (int i = of.start; i < of.end; ++i) {
-        (i == 0 ? frame : mosaic) = DetailOf(i == 0 ? seen : grey_);
-      }
-    });
+    SideBySide({[&] { frame = DetailOf(seen); }, [&] { mosaic = DetailOf(grey_); }});
     const int reach = static_cast<int>(std::ceil(kFarthest_m / (2 * geometry_.cell_m)));
-    const Peak coarse =
-        BestAround(Coarser(frame), Coarser(mosaic), {}, reach, kLeastCommon_cells / 4);
-    const Peak peak =
-        BestAround(frame, mosaic, {2 * coarse.at.rows, 2 * coarse.at.cols}, 1, kLeastCommon_cells);
-    if (peak.correlation >= kLeastCorrelation) {
-      const auto at = [&](int dr, int dc) {
-        return Correlation(frame, mosaic, {peak.at.rows + dr, peak.at.cols + dc},
-                           kLeastCommon_cells);
-      };
-      const double down = peak.at.rows + Vertex(at(-1, 0), peak.correlation, at(1, 0));
-      const double right = peak.at.cols + Vertex(at(0, -1), peak.correlation, at(0, 1));
+    const CellShift coarse =
+        Correlations(Coarser(frame), Coarser(mosaic), {}, reach, kLeastCommon_cells / 4)
+            .Best(reach)
+            .value_or(CellShift{});
+    // A cell each way is asked, and beside it what the parabolas need.
+    const Correlations fine(frame, mosaic, {2 * coarse.rows, 2 * coarse.cols}, 2,
+                            kLeastCommon_cells);
+    const std::optional<CellShift> peak = fine.Best(1);
+    if (peak && fine.At(*peak) >= kLeastCorrelation) {
+      const auto at = [&](int dr, int dc) { return fine.At({peak->rows + dr, peak->cols + dc}); };
+      const double down = peak->rows + Vertex(at(-1, 0), at(0, 0), at(1, 0));
+      const double right = peak->cols + Vertex(at(0, -1), at(0, 0), at(0, 1));
       const double left_over = 1.0 / (1 + std::max(1, frames_fused));
       const Eigen::Vector2d to_map_m =
           geometry_.cell_m * Eigen::Vector2d(-down, right) + followed_m_;
