@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "gui/widgets/draw.h"
@@ -62,13 +63,13 @@ void Mark(ImDrawList* dl, const Style& s, ImVec2 at, TerrainFlag flag) {
   }
 }
 
-void MarkFirst(ImDrawList* dl, const Style& s, ImVec2 at, unsigned flags) {
+TerrainFlag FirstOf(unsigned flags) {
   for (const FlagLook& look : kLooks) {
     if ((flags & look.flag) != 0) {
-      Mark(dl, s, at, look.flag);
-      return;
+      return look.flag;
     }
   }
+  return kFlagNone;
 }
 
 }  // namespace
@@ -78,13 +79,44 @@ void DrawFlagsOnMap(const Style& style, const Rect& square, const Grid<std::uint
     return;
   }
   const float spacing = style.Px(kSpacing);
+  std::set<std::tuple<int, int, TerrainFlag>> marked;  // squares as wide as marks are apart
+  const auto square_of = [&](ImVec2 at) {
+    return std::pair{static_cast<int>((at.x - square.x) / spacing),
+                     static_cast<int>((at.y - square.y) / spacing)};
+  };
+  const auto mark = [&](ImVec2 at, TerrainFlag flag) {
+    const auto [x, y] = square_of(at);
+    marked.insert({x, y, flag});
+    Mark(Canvas(), style, at, flag);
+  };
+  const float cell_w = square.w / static_cast<float>(flags.cols()),
+              cell_h = square.h / static_cast<float>(flags.rows());
   for (float y = square.y + spacing / 2; y < square.bottom(); y += spacing) {
     for (float x = square.x + spacing / 2; x < square.right(); x += spacing) {
-      const int row =
-          static_cast<int>((y - square.y) / square.h * static_cast<float>(flags.rows()));
-      const int col =
-          static_cast<int>((x - square.x) / square.w * static_cast<float>(flags.cols()));
-      MarkFirst(Canvas(), style, {x, y}, flags.at(row, col));
+      const TerrainFlag flag = FirstOf(flags.at(static_cast<int>((y - square.y) / cell_h),
+                                                static_cast<int>((x - square.x) / cell_w)));
+      if (flag != kFlagNone) {
+        mark({x, y}, flag);
+      }
+    }
+  }
+  // What falls between them, and has none of its kind beside it, has one where it is.
+  for (int row = 0; row < flags.rows(); ++row) {
+    for (int col = 0; col < flags.cols(); ++col) {
+      const TerrainFlag flag = FirstOf(flags.at(row, col));
+      if (flag == kFlagNone) {
+        continue;
+      }
+      const ImVec2 at{square.x + cell_w * (static_cast<float>(col) + 0.5f),
+                      square.y + cell_h * (static_cast<float>(row) + 0.5f)};
+      const auto [x, y] = square_of(at);
+      bool beside = false;
+      for (int k = 0; k < 9; ++k) {
+        beside = beside || marked.contains({x + k / 3 - 1, y + k % 3 - 1, flag});
+      }
+      if (!beside) {
+        mark(at, flag);
+      }
     }
   }
 }
@@ -108,7 +140,7 @@ void DrawFlagsOnPicture(const Style& style, const PictureView& view, const GridG
       const std::pair place{static_cast<int>((at->x - view.rect.x) / spacing),
                             static_cast<int>((at->y - view.rect.y) / spacing)};
       if (taken.insert(place).second) {
-        MarkFirst(Canvas(), style, *at, flags.at(row, col));
+        Mark(Canvas(), style, *at, FirstOf(flags.at(row, col)));
       }
     }
   }

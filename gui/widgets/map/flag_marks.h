@@ -1,6 +1,6 @@
 // Marks of terrain flags: a small white shape with a dark rim on every few pixels of a flagged
-// area, over any colour map or picture. Hazards are hatched in orange, unknown is hatched in grey;
-// flags are told apart from both and from each other by shape.
+// area, and one on what is narrower, over any colour map or picture. Hazards are hatched in orange,
+// unknown is hatched in grey; flags are told apart from both and from each other by shape.
 //
 //   cross      thin structure        two dashes  no texture      chevron  motion
 //   square     elevated surface      dot         deep shadow     triangle unexplained mark

@@ -51,6 +51,23 @@ TEST(FlagMarks, EveryKindIsMarkedOnItsCellsOnly) {
   }
 }
 
+// A post is one cell wide, a wire two: neither falls between the marks of an area.
+TEST(FlagMarks, OneCellIsMarkedWhereverItLies) {
+  UiHarness ui(400, 400);
+  const Rect square{10, 20, kSide, kSide};
+  for (const Cell cell : {Cell{0, 0}, {99, 99}, {31, 62}, {50, 7}, {52, 7}, {53, 8}}) {
+    Grid<std::uint8_t> flags(kCells, kCells, kFlagNone);
+    flags.at(cell) = kFlagUnexplained;
+    const auto corners =
+        Drawn(ui, [&](UiFrame& frame) { DrawFlagsOnMap(frame.style, square, flags); });
+    ASSERT_FALSE(corners.empty()) << cell.row << ' ' << cell.col;
+    for (const ImVec2& p : corners) {
+      EXPECT_NEAR(p.x, 10 + 3 * cell.col + 1.5, 5.5) << cell.col;
+      EXPECT_NEAR(p.y, 20 + 3 * cell.row + 1.5, 5.5) << cell.row;
+    }
+  }
+}
+
 TEST(FlagMarks, NothingWithoutFlags) {
   UiHarness ui(400, 400);
   const Rect square{10, 20, kSide, kSide};
