@@ -165,6 +165,72 @@ void RaiseUnder(const Standing& square, const Eigen::Vector3d& p_WC, const Eleva
   }
 }
 
+/// A map as squares of one size look at it.
+struct Look {
+  const FineSums& sums;
+  const Viewpoint& view;
+  const GridF& repeated_m2;
+  std::size_t scale;  ///< of kScales
+  Figures figures;
+  GroundBumps bumps;
+
+  int side() const { return kScales[scale].sides * sums.side(); }
+  bool IsNarrowest() const { return kScales[scale].sides == 1; }
+};
+
+Look LookAt(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2,
+            std::size_t scale) {
+  const int side = kScales[scale].sides * sums.side();
+  Figures figures = Measure(sums, side, kScales[scale].ring_to);
+  GroundBumps bumps(figures.off_m, figures.sigma_m, sums.places().cell_m, side);
+  return {sums, view, repeated_m2, scale, std::move(figures), std::move(bumps)};
+}
+
+/// What stands out in a row of places. Remembers in `standing` that it does, a bit a scale; the
+/// narrowest squares give `narrow` its figures.
+std::vector<Standing> LookAlong(const Look& look, int r, Grid<std::uint8_t>& standing,
+                                NarrowFigures& narrow) {
+  const GridGeometry& places = look.sums.places();
+  const double square_m = look.sums.side() * places.cell_m;
+  const Scale& scale = kScales[look.scale];
+  const unsigned bit = 1U << look.scale;
+  std::vector<Standing> found;
+  for (int c = 0; c < places.cols; c += StrideOf(look.side())) {
+    std::uint8_t& stood = standing.at(r, c);
+    const bool stood_out = (stood & bit) != 0;
+    stood = static_cast<std::uint8_t>(stood & ~bit);
+    const ShownBySquare& off_frame = look.figures.shown.at(r, c);
+    if (!off_frame.told) {
+      continue;
+    }
+    const SquareAndFrame at{r, c, look.side(), scale.ring_to};
+    const double bumps_m = look.bumps.At(r, c);
+    const double repeated_m = std::sqrt(At(look.repeated_m2, r / kPerCell, c / kPerCell));
+    const double worst_m = look.IsNarrowest() ? 0 : kWorstTexture * repeated_m;
+    const auto [shown, stands_out] = Ask(look.sums, at, off_frame, bumps_m, worst_m, stood_out);
+    stood = static_cast<std::uint8_t>(stood | (stands_out ? bit : 0U));
+    if (!(shown.told && std::abs(shown.off_m) <= kTallest_m)) {
+      continue;
+    }
+    const double level_m = shown.level_m + look.sums.reference_m();
+    const Eigen::Vector3d p_WQ(places.NorthOfRow(r), places.EastOfCol(c), -level_m);
+    const double gradient_m = kGradient_px * look.view.Pixel_m(p_WQ);
+    const double smear = (Square(gradient_m) + Square(square_m)) / Square(kThing_m);
+    if (look.IsNarrowest()) {
+      const double noise_m = std::hypot(shown.sigma_m, repeated_m);
+      narrow.prominence_m.at(r, c) = static_cast<float>(shown.off_m);
+      narrow.noise_m.at(r, c) = static_cast<float>(noise_m);
+      narrow.sigma_m.at(r, c) = static_cast<float>(std::hypot(noise_m, bumps_m));
+      narrow.share.at(r, c) = static_cast<float>(kPeakOfThing / (1 + smear));
+    }
+    if (stands_out) {
+      // What fills a wider square shows all of its height.
+      found.push_back({at, shown, level_m, std::max(1.0, (1 + smear) / scale.sides)});
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2,
@@ -172,60 +238,21 @@ void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& 
   const GridGeometry& places = sums.places();
   PALACE_CHECK(standing.rows() == places.rows && standing.cols() == places.cols, standing.rows(),
                places.rows);
-  const double square_m = sums.side() * places.cell_m;
   const GridF unknown(places.rows, places.cols, kUnknownValue);
   map.narrow = {unknown, unknown, unknown, unknown, 0};
   GridF top_m = map.height_m;
   for (std::size_t k = 0; k < std::size(kScales); ++k) {
-    const Scale& scale = kScales[k];
-    const int side = scale.sides * sums.side();
-    const Figures figures = Measure(sums, side, scale.ring_to);
-    const GroundBumps bumps(figures.off_m, figures.sigma_m, places.cell_m, side);
-    const bool narrowest = scale.sides == 1;
-    if (narrowest) {
-      map.narrow.ring_m = (0.5 + scale.ring_to) * square_m;
+    const Look look = LookAt(sums, view, repeated_m2, k);
+    if (look.IsNarrowest()) {
+      map.narrow.ring_m = (0.5 + kScales[k].ring_to) * (sums.side() * places.cell_m);
     }
-    const int stride = StrideOf(side);
-    const int looks = LooksOf(places.rows, stride);
-    std::vector<std::vector<Standing>> standing_out(static_cast<std::size_t>(looks));
-    const auto look_along = [&](int r, std::vector<Standing>& found) {
-      for (int c = 0; c < places.cols; c += stride) {
-        std::uint8_t& stood = standing.at(r, c);
-        const bool stood_out = (stood >> k & 1U) != 0;
-        stood = static_cast<std::uint8_t>(stood & ~(1U << k));
-        if (!figures.shown.at(r, c).told) {
-          continue;
-        }
-        const SquareAndFrame at{r, c, side, scale.ring_to};
-        const double bumps_m = bumps.At(r, c);
-        const double repeated_m = std::sqrt(At(repeated_m2, r / kPerCell, c / kPerCell));
-        const double worst_m = narrowest ? 0 : kWorstTexture * repeated_m;
-        const auto [shown, stands_out] =
-            Ask(sums, at, figures.shown.at(r, c), bumps_m, worst_m, stood_out);
-        stood = static_cast<std::uint8_t>(stood | (stands_out ? 1U << k : 0U));
-        if (!(shown.told && std::abs(shown.off_m) <= kTallest_m)) {
-          continue;
-        }
-        const double level_m = shown.level_m + sums.reference_m();
-        const Eigen::Vector3d p_WQ(places.NorthOfRow(r), places.EastOfCol(c), -level_m);
-        const double gradient_m = kGradient_px * view.Pixel_m(p_WQ);
-        const double smear = (Square(gradient_m) + Square(square_m)) / Square(kThing_m);
-        if (narrowest) {
-          const double noise_m = std::hypot(shown.sigma_m, repeated_m);
-          map.narrow.prominence_m.at(r, c) = static_cast<float>(shown.off_m);
-          map.narrow.noise_m.at(r, c) = static_cast<float>(noise_m);
-          map.narrow.sigma_m.at(r, c) = static_cast<float>(std::hypot(noise_m, bumps_m));
-          map.narrow.share.at(r, c) = static_cast<float>(kPeakOfThing / (1 + smear));
-        }
-        if (stands_out) {
-          // What fills a wider square shows all of its height.
-          found.push_back({at, shown, level_m, std::max(1.0, (1 + smear) / scale.sides)});
-        }
-      }
-    };
-    ForEach(looks,
-            [&](int i) { look_along(i * stride, standing_out[static_cast<std::size_t>(i)]); });
-    for (const std::vector<Standing>& row : standing_out) {
+    const int stride = StrideOf(look.side());
+    std::vector<std::vector<Standing>> found(
+        static_cast<std::size_t>(LooksOf(places.rows, stride)));
+    ForEach(static_cast<int>(found.size()), [&](int i) {
+      found[static_cast<std::size_t>(i)] = LookAlong(look, i * stride, standing, map.narrow);
+    });
+    for (const std::vector<Standing>& row : found) {
       for (const Standing& square : row) {
         RaiseUnder(square, view.p_WC, map, top_m);
       }
