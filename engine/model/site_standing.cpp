@@ -92,7 +92,8 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
   }
   if (StandsInNoise(site, settings)) {
     return WithNumbers("height noise %.1f cm (3 sigma), ", 100 * site.height_m.three_sigma) +
-           SureFrom(site, WithNumbers("below %.1f cm", 100 * settings.limits.max_deviation_m));
+           SureFrom(site, WithNumbers("below %.1f cm", 100 * settings.limits.max_deviation_m)) +
+           (IsMarked(site) ? "; an unexplained mark" : "");
   }
   // Air that the way down shows speaks less against it than what may stand there.
   if (site.hidden_things > kMostHiddenProvisional && IsAirShown(site)) {

@@ -370,9 +370,9 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
              std::string(m.can_approve ? "Commits" : "Would commit") +
                  " the vehicle to land on site " + m.armed->letter + ".");
     DrawConsequence(ApprovalConsequence(snap, narrow), rect, narrow, ui);
-    DrawChecks(snap, rect, rect.y + s.Px(narrow ? 88 : 132), narrow, state, ui);
+    DrawChecks(snap, rect, rect.y + s.Px(narrow ? 88 : 137), narrow, state, ui);
     if (!narrow) {
-      DrawExpiry(snap, rect, rect.y + s.Px(166), ui);
+      DrawExpiry(snap, rect, rect.y + s.Px(168), ui);
     }
   } else {
     DrawText(ui, narrow ? s.medium : s.section, p.text1, x, rect.y + s.Px(narrow ? 42 : 46),

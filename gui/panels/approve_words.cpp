@@ -216,7 +216,10 @@ std::string WhatToDoUnarmed(const EngineSnapshot& snap) {
     return m.why + ".";
   }
   if (!sites) {
-    return "Waiting for a site inside all limits." + LookWords(m);
+    const bool waits = snap.terrain->applied && snap.terrain->applied->selection.waits;
+    return (waits ? "Waiting for the first list of sites."
+                  : "Waiting for a site inside all limits.") +
+           LookWords(m);
   }
   switch (m.state) {
     case MissionState::kProposed:

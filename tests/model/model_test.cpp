@@ -127,6 +127,11 @@ TEST(SiteStanding, AProvisionalSiteSaysWhy) {
   site.look_height_m = 8;
   EXPECT_EQ(WhyProvisional(site, settings.slad),
             "height noise 12.0 cm (3 sigma), sure from 8 m above it");
+  LandingSite marked = site;
+  marked.look_height_m = std::nan("");
+  marked.flags = kFlagUnexplained;
+  EXPECT_EQ(WhyProvisional(marked, settings.slad),
+            "height noise 12.0 cm (3 sigma), sure below 10.0 cm; an unexplained mark");
   site.height_m.three_sigma = 0.03;
   site.hidden_things = 0.154;
   EXPECT_EQ(WhyProvisional(site, settings.slad),

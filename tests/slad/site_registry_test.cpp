@@ -98,6 +98,8 @@ TEST(SiteRegistry, AFlightListsOnceItsMapsRememberAllTheyWill) {
   EXPECT_FALSE(hover.See(WithBox(Flat(), 0, 0, 0.5, 0.6)).sites.empty());
   hover.registry_.Reset(SiteNames::kGoOn);
   EXPECT_TRUE(hover.See(WithBox(Flat(), 0, 0, 0.5, 0.6)).sites.empty());
+  hover.registry_.GoOnWith({}, hover.settings);  // its record lists none yet either
+  EXPECT_TRUE(hover.See(WithBox(Flat(), 0, 0, 0.5, 0.6)).waits);
 
   Hover folder;
   EXPECT_FALSE(folder.See(WithBox(Flat(), 0, 0, 0.5, 0.6)).sites.empty());

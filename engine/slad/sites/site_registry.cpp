@@ -88,7 +88,7 @@ void SiteRegistry::GoOnWith(const std::vector<RecordedPlace>& places,
   }
   time_ = Timestamp{};  // older than any map: the next is not the same again
   settings_ = settings;
-  lists_ = true;
+  lists_ = !places.empty();  // a flight's first seconds have none
 }
 
 SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& hazards,

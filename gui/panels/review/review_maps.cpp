@@ -66,15 +66,15 @@ void DrawDifference(const EngineSnapshot& snap, const Grid<std::uint8_t>& change
                                : std::string("––");
   const Rect content =
       DrawPanelFrame(ui, panel, "Difference", {{moved ? change_words : "none", 0, false, false}});
-  const Rect square = SquareIn(panel, content, s);
+  const Rect area = SquareIn(panel, content, s);
   if (!moved) {
-    FillRect(Canvas(), square, s.palette.plot_floor);
-    DrawText(ui, s.caption, s.palette.text2, square.centre().x, square.centre().y,
+    FillRect(Canvas(), area, s.palette.plot_floor);
+    DrawText(ui, s.caption, s.palette.text2, area.centre().x, area.centre().y,
              !FollowsRecord(snap.session->role) ? "Only of a log"
              : LimitsMoved(snap) == 0           ? "Same limits"
                                                 : "No map yet",
              Align::kCentre);
-    ui.items.Add("map/Difference", square, true, "Difference");
+    ui.items.Add("map/Difference", area, true, "Difference");
     return;
   }
   MapView view = MakeMapView(MapKind::kSafeDistance, {.decision = now}, ui.textures);
@@ -83,7 +83,8 @@ void DrawDifference(const EngineSnapshot& snap, const Grid<std::uint8_t>& change
   view.title = "Difference";
   MapMarks none;
   none.probe = ProbeCell(probe, now->hazards->geometry);
-  const MapAnswer answer = DrawMapPicture(ui, square, view, none);
+  const MapAnswer answer = DrawMapPicture(ui, area, view, none);
+  const Rect& square = answer.square;
   const ImU32 dark = WithAlpha(picture::kBlack, 0.6f);
   DrawCellHatch(Canvas(), square, {changed.cols(), changed.rows(), 0, dark, s.Fine(1.3f), s.Px(6)},
                 [&](int row, int col) { return changed.at(row, col) != 0; });

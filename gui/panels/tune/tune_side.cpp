@@ -202,7 +202,8 @@ void DrawCellsPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
              total > 0 ? Fixed(c.now, 0) : "––", Align::kRight);
     ui.items.Add(std::string("cells/") + c.name, {bar.x, y, bar.w, row}, true, Fixed(c.now, 0));
     if (facts.previewing) {
-      DrawText(ui, s.body, p.text2, bar.right(), middle, Signed(c.now - c.before) + " cells",
+      DrawText(ui, s.body, p.text2, bar.right(), middle,
+               Signed(c.now - c.before) + (std::abs(c.now - c.before) == 1 ? " cell" : " cells"),
                Align::kRight);
     }
     y += row;

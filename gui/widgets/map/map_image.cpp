@@ -144,12 +144,24 @@ void DrawTick(const Style& s, const Rect& bar, float x) {
 
 }  // namespace
 
-MapAnswer DrawMapPicture(UiFrame& ui, const Rect& square, const MapView& view,
+Rect MapWithin(const Rect& area, const GridGeometry& geometry) {
+  if (geometry.rows <= 0 || geometry.cols <= 0) {
+    return area;
+  }
+  const auto rows = static_cast<float>(geometry.rows), cols = static_cast<float>(geometry.cols);
+  const float cell = std::min(area.w / cols, area.h / rows);
+  const float w = std::round(cols * cell), h = std::round(rows * cell);
+  return {area.x + std::floor((area.w - w) / 2), area.y + std::floor((area.h - h) / 2), w, h};
+}
+
+MapAnswer DrawMapPicture(UiFrame& ui, const Rect& area, const MapView& view,
                          const MapMarks& marks) {
   const Style& s = ui.style;
   ImDrawList* dl = Canvas();
-  dl->PushClipRect(square.min(), square.max(), true);
   const bool known = view.values != nullptr && !view.values->empty();
+  const Rect square = known ? MapWithin(area, view.geometry) : area;
+  FillRect(dl, area, s.palette.plot_floor);  // beyond the map
+  dl->PushClipRect(square.min(), square.max(), true);
   if (!known) {
     UnknownFill(s, dl, square);
   } else {

@@ -1,5 +1,5 @@
-// Map panel: square map with nearest cells, hatch on unknown cells, sites, footprint, probe, and a
-// colour bar whose limit tick can be dragged.
+// Map panel: map of one scale both ways with nearest cells, hatch on unknown cells, sites,
+// footprint, probe, and a colour bar whose limit tick can be dragged.
 #pragma once
 
 #include <cmath>
@@ -75,7 +75,7 @@ struct TickMove {
 
 /// What was done to a map.
 struct MapAnswer {
-  Rect square;
+  Rect square;                   ///< where the map lies
   std::optional<TickMove> tick;  ///< of DrawMapPanel: the tick was dragged or stepped
   std::optional<Cell> under_pointer;
   bool clicked = false;
@@ -87,9 +87,11 @@ struct MapAnswer {
 /// Draws the panel (items "map/<key>" and "tick/<setting>").
 MapAnswer DrawMapPanel(UiFrame& ui, const Rect& panel, float side, const MapView& view,
                        const MapMarks& marks, LimitDrag& drag);
-/// The square picture alone with all its marks.
-MapAnswer DrawMapPicture(UiFrame& ui, const Rect& square, const MapView& view,
-                         const MapMarks& marks);
+/// The picture alone with all its marks, in the middle of `area` as large as MapWithin says.
+MapAnswer DrawMapPicture(UiFrame& ui, const Rect& area, const MapView& view, const MapMarks& marks);
+/// Where a map lies in `area`: as large as it can, of one scale both ways, in whole pixels; all of
+/// it for a map without cells.
+Rect MapWithin(const Rect& area, const GridGeometry& geometry);
 /// Colour bar with end labels and limit; `bar` is the 8-unit strip itself. `drag` may be null: the
 /// tick stands still. Returns where it was moved to.
 std::optional<TickMove> DrawColourBar(UiFrame& ui, const Rect& bar, const MapView& view,

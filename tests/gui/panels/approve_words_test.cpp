@@ -182,6 +182,10 @@ TEST(ApproveWords, WithoutASelectionItSaysWhatToDo) {
   EXPECT_EQ(WhatToDoUnarmed(snap), "Left camera repeats its picture: no site is proposed.");
   snap.terrain.Edit().applied = nullptr;
   EXPECT_EQ(WhatToDoUnarmed(snap), "Waiting for a site inside all limits.");
+  const auto early = std::make_shared<TerrainDecision>();
+  early->selection.waits = true;
+  snap.terrain.Edit().applied = early;
+  EXPECT_EQ(WhatToDoUnarmed(snap), "Waiting for the first list of sites.");
   EXPECT_EQ(NextSiteLetter(snap), "");
 }
 

@@ -4,6 +4,7 @@
 
 #include "gui/widgets/evidence_row.h"
 #include "gui/widgets/map/contour.h"
+#include "gui/widgets/map/map_image.h"
 #include "gui/widgets/number_text.h"
 #include "gui/widgets/plot.h"
 #include "gui/widgets/style.h"
@@ -23,6 +24,22 @@ double Contrast(ImU32 a, ImU32 b) {
   const double la = Luminance(a);
   const double lb = Luminance(b);
   return (std::max(la, lb) + 0.05) / (std::min(la, lb) + 0.05);
+}
+
+// A ring is a circle, so a metre is as long down a map as across it.
+TEST(MapWithin, HasOneScaleBothWaysAndIsAsLargeAsItCanBe) {
+  const Rect area{10, 20, 240, 200};
+  const struct {
+    int rows, cols;
+    float w, h;
+  } table[] = {{100, 100, 200, 200}, {200, 100, 100, 200}, {100, 200, 240, 120}, {0, 0, 240, 200}};
+  for (const auto& row : table) {
+    const Rect map = MapWithin(area, {row.rows, row.cols, 0.15, 0, 0});
+    EXPECT_EQ(map.w, row.w) << row.rows;
+    EXPECT_EQ(map.h, row.h) << row.cols;
+    EXPECT_EQ(map.centre().x, area.centre().x) << row.rows;
+    EXPECT_EQ(map.centre().y, area.centre().y) << row.cols;
+  }
 }
 
 TEST(Palette, EveryTextIsReadableOnEveryGroundInEveryTheme) {
