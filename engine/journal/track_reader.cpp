@@ -65,11 +65,11 @@ void TrackReader::AddDecision(const WireMessage& message) {
     return;
   }
   if (const auto* refuse = std::get_if<RefuseSite>(&command->action)) {
-    decision_ = {refuse->site_id, true};
+    decision_ = {refuse->site_id, true, 0};
   } else if (const auto* approve = std::get_if<ApproveSite>(&command->action)) {
-    decision_ = {approve->site_id, false};
+    decision_ = {approve->site_id, false, 0};
   } else if (const auto* look = std::get_if<LookAtSite>(&command->action)) {
-    decision_ = {look->site_id, false};
+    decision_ = {look->site_id, false, look->stop_height_m};
   }
   const auto* select = std::get_if<SelectSite>(&command->action);
   if (select == nullptr) {
@@ -78,6 +78,7 @@ void TrackReader::AddDecision(const WireMessage& message) {
   if (const LandingSite* site = FindSite(newest_sites_, select->site_id)) {
     armed_ = static_cast<int>(record_.armed_sites.size());
     record_.armed_sites.push_back(*site);
+    stop_height_m_ = 0;
   }
 }
 
@@ -90,6 +91,7 @@ void TrackReader::AddEvent(const WireMessage& message) {
     const Answerable answered = *std::exchange(decision_, std::nullopt);
     if (!IsRefusal(*event)) {
       SetRefused(answered.site_id, answered.refused, event->time);
+      stop_height_m_ = answered.stop_height_m;
     }
   }
   record_.events.push_back(*event);
@@ -114,7 +116,9 @@ void TrackReader::AddStatus(const WireMessage& message) {
   if (!sample) {
     return;
   }
-  sample->armed = IsBound(sample->state) ? armed_ : -1;
+  const bool bound = IsBound(sample->state);
+  sample->armed = bound ? armed_ : -1;
+  sample->stop_height_m = bound && sample->state != MissionState::kArmed ? stop_height_m_ : 0;
   sample->new_map = std::exchange(new_map_, false);
   NoteTouchdown(*sample);
   record_.samples.push_back(*sample);

@@ -37,9 +37,11 @@ class TrackReader {
   struct Answerable {
     std::uint64_t site_id = 0;
     bool refused = false;
+    double stop_height_m = 0;  ///< of LookAtSite
   };
   std::optional<Answerable> decision_;
-  bool new_map_ = false;  // since the last status
+  double stop_height_m_ = 0;  // of the approval in force
+  bool new_map_ = false;      // since the last status
 };
 
 }  // namespace palace

@@ -31,7 +31,9 @@ struct FlightRecordSample {
   double height_m = NAN;              ///< body above the origin of W, up-positive
   int alarms = 0;                     ///< active
   bool vision_in_force = false;
-  int armed = -1;        ///< index into FlightRecord::armed_sites; -1: none armed
+  int armed = -1;  ///< index into FlightRecord::armed_sites; -1: none armed
+  /// Above the site, of a look that was approved: MissionStatus::stop_height_m. 0: none was.
+  double stop_height_m = 0;
   bool new_map = false;  ///< a map came with it: the figures of the best site were measured now
 };
 

@@ -120,6 +120,7 @@ MissionStatus RecordedMission::StatusAt(Timestamp time, const MissionStatus& wat
     status.touchdown_miss_m = Known(touchdown->miss_m);
     status.touchdown_miss_true_m = Known(touchdown->true_miss_m);
   }
+  status.stop_height_m = sample->stop_height_m;
   status.height_above_site_m = sample->height_above_site_m;
   status.distance_to_site_m = sample->distance_to_site_m;
   status.time_to_touchdown_s = sample->state == MissionState::kLanded ? 0 : NAN;

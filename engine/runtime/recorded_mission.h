@@ -34,8 +34,8 @@ class RecordedMission {
   std::array<std::optional<Timestamp>, kChannelCount> HeardBefore(Timestamp time) const;
   /// The site that was tracked and flown to; empty before it was armed and after the landing.
   std::optional<LandingSite> TrackedSite(Timestamp time) const;
-  /// The whole status by the record: state and since when, armed site, refused sites, height,
-  /// distance, touchdown. Of
+  /// The whole status by the record: state and since when, armed site, whether it is flown to for
+  /// a look, refused sites, height, distance, touchdown. Of
   /// `watched`, which Mission says of the pictures played, it takes what needs no past: the alarms
   /// of channels and cameras, and the limits of the cameras. Without a sample: `watched`.
   MissionStatus StatusAt(Timestamp time, const MissionStatus& watched) const;

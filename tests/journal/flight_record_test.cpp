@@ -42,8 +42,9 @@ TEST_F(ReplayTest, TellsGapsAndWhatEachMapProposed) {
 }
 
 /// Forty bundles, 0.1 s apart. B is refused in number 1; a refusal in number 3 is not taken. A is
-/// selected in number 2 and approved in number 5; from number 7 on the vehicle stands on the ground
-/// and no map is made. From number 10 to 29 bundles come in which nothing was heard.
+/// selected in number 2, looked at from 4 and approved in number 5; from number 7 on the vehicle
+/// stands on the ground and no map is made. From number 10 to 29 bundles come in which nothing was
+/// heard.
 class LandedFlight : public JournalTest {
  protected:
   static constexpr int kBundles = 40;
@@ -77,6 +78,9 @@ class LandedFlight : public JournalTest {
       } else if (i == 3) {
         item.commands.push_back({CommandOrigin::kOperator, RefuseSite{1}});
         say("Refuse refused: No site is proposed");
+      } else if (i == 4) {
+        item.commands.push_back({CommandOrigin::kOperator, LookAtSite{1, 3, 12}});
+        say("Look at site A from 12 m approved");
       } else if (i == 5) {
         item.commands.push_back({CommandOrigin::kOperator, ApproveSite{1, 4}});
         say("Site A approved");
@@ -92,7 +96,7 @@ class LandedFlight : public JournalTest {
       snapshot->terrain.Edit().applied = decision;
       MissionStatus& mission = snapshot->flight.Edit().mission;
       mission.state = i < 2   ? MissionState::kProposed
-                      : i < 5 ? MissionState::kArmed
+                      : i < 4 ? MissionState::kArmed
                       : i < 7 ? MissionState::kDescending
                               : MissionState::kLanded;
       mission.distance_to_site_m = 0.1 * i;
@@ -130,6 +134,12 @@ TEST_F(LandedFlight, TellsWhatTheOperatorRefusedAndTheStationTook) {
   ASSERT_EQ(record_->refusals.size(), 1U);
   EXPECT_EQ(record_->refusals[0].from, times_[1]);
   EXPECT_EQ(record_->refusals[0].site_ids, std::vector<std::uint64_t>{2});
+}
+
+TEST_F(LandedFlight, TellsALookFromALanding) {
+  for (std::size_t i = 0; i < kBundles; ++i) {
+    EXPECT_EQ(record_->samples[i].stop_height_m, i == 4 ? 12 : 0) << i;
+  }
 }
 
 TEST_F(LandedFlight, TellsWithWhichBundlesAMapCame) {

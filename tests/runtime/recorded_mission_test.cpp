@@ -102,6 +102,7 @@ TEST(RecordedMission, TellsTheRecordAndNothingOfAMissionThatWasNotSeen) {
       At(1'000'000, MissionState::kProposed, -1), At(2'000'000, MissionState::kDescending, 0),
       At(3'000'000, MissionState::kDescending, 0), At(4'000'000, MissionState::kLanded, 0)};
   record->samples[2].alarms = 2;
+  record->samples[1].stop_height_m = 12;
   RecordedMission mission;
   MissionStatus watched;
   watched.state = MissionState::kProposed;
@@ -118,10 +119,12 @@ TEST(RecordedMission, TellsTheRecordAndNothingOfAMissionThatWasNotSeen) {
   EXPECT_FALSE(mission.TrackedSite({3'500'000}).has_value());
   mission.Follow(record);
 
+  EXPECT_TRUE(mission.StatusAt({2'500'000}, watched).IsLook());
   const MissionStatus status = mission.StatusAt({3'500'000}, watched);
   EXPECT_EQ(status.state, MissionState::kDescending);
   EXPECT_EQ(status.since.us, 2'000'000);
   EXPECT_EQ(status.armed->letter, "C");
+  EXPECT_FALSE(status.IsLook());
   EXPECT_EQ(status.height_above_site_m, 3);
   ASSERT_NE(FindLimit(status.armed_limits, LimitId::kSlope), nullptr);
   EXPECT_NEAR(FindLimit(status.armed_limits, LimitId::kSlope)->limit, Rad(6), 1e-12);
