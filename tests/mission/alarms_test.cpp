@@ -170,6 +170,8 @@ TEST(Alarms, GrowingIntoAWarningAsksAgain) {
   EXPECT_EQ(board.UnacknowledgedWarning(), "");
   Feed(board, {true}, AlarmLevel::kWarning);
   EXPECT_EQ(board.UnacknowledgedWarning(), "Link 1.2 s, limit 1.0 s.");
+  Feed(board, {false, false, false}, AlarmLevel::kWarning);
+  EXPECT_EQ(board.UnacknowledgedWarning(), "Link 1.2 s, limit 1.0 s (over)");
 }
 
 TEST(Alarms, WorstFirst) {

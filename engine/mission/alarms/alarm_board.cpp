@@ -103,10 +103,23 @@ std::string AlarmBoard::LastText(AlarmId id) const {
   return entry == entries_.end() ? std::string() : entry->alarm.text;
 }
 
+namespace {
+
+/// Without the sentences on what comes next: of what is over nothing does.
+std::string WordsOfOver(const Alarm& alarm) {
+  std::string first = alarm.text.substr(0, alarm.text.find(". "));
+  if (first.ends_with('.')) {
+    first.pop_back();
+  }
+  return first + " (over)";
+}
+
+}  // namespace
+
 std::string AlarmBoard::UnacknowledgedWarning() const {
   for (const Alarm& alarm : Shown()) {
     if (alarm.level == AlarmLevel::kWarning && !alarm.acknowledged) {
-      return alarm.text;
+      return alarm.active ? alarm.text : WordsOfOver(alarm);
     }
   }
   return {};

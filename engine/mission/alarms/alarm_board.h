@@ -37,7 +37,8 @@ class AlarmBoard {
   bool IsAcknowledged(AlarmId id) const;
   /// What it said last, on the board or not; empty: it was never told.
   std::string LastText(AlarmId id) const;
-  /// Text of the worst warning nobody acknowledged, empty when there is none.
+  /// Text of the worst warning nobody acknowledged, empty when there is none; of one that is over
+  /// what it was: "Vision lost for 2.0 s, limit 0.3 s (over)".
   std::string UnacknowledgedWarning() const;
   /// What stands before what is over, then worst first; of that what nobody acknowledged, then the
   /// newest: one sentence has room in the strip, and an old caution must not hide a new one.
