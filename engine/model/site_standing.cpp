@@ -29,7 +29,7 @@ std::string MayHide(const LandingSite& site) {
   const bool near_limit = site.hidden_things < 2 * kMostHidden;
   return (near_limit ? WithNumbers("%.3f ", ShownBeyond(site.hidden_things, kMostHidden, 3))
                      : WithNumbers("%.2f ", site.hidden_things)) +
-         (IsMarked(site) ? "things may stand on unexplained marks, "
+         (IsMarked(site) ? "things may be hidden (unexplained mark), "
                          : "rocks or holes may be hidden, ") +
          SureFrom(site, WithNumbers(near_limit ? "to %.3f" : "to %.2f", kMostHidden));
 }

@@ -140,7 +140,7 @@ TEST(SiteStanding, AProvisionalSiteSaysWhy) {
   EXPECT_EQ(WhyProvisional(site, settings.slad), "0.15 rocks or holes may be hidden, sure to 0.01");
   site.flags = kFlagUnexplained;
   EXPECT_EQ(WhyProvisional(site, settings.slad),
-            "0.15 things may stand on unexplained marks, sure to 0.01");
+            "0.15 things may be hidden (unexplained mark), sure to 0.01");
   site.flags = kFlagNone;
   site.hidden_things = 0.0103;
   EXPECT_EQ(WhyProvisional(site, settings.slad),

@@ -1,9 +1,9 @@
 #include "gui/widgets/map/flag_marks.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "gui/widgets/draw.h"
@@ -79,22 +79,27 @@ void DrawFlagsOnMap(const Style& style, const Rect& square, const Grid<std::uint
     return;
   }
   const float spacing = style.Px(kSpacing);
-  std::set<std::tuple<int, int, TerrainFlag>> marked;  // squares as wide as marks are apart
+  // Squares as wide as marks are apart: which flags have a mark there or beside it. A rim of one.
+  Grid<std::uint8_t> marked(static_cast<int>(square.h / spacing) + 3,
+                            static_cast<int>(square.w / spacing) + 3, kFlagNone);
   const auto square_of = [&](ImVec2 at) {
-    return std::pair{static_cast<int>((at.x - square.x) / spacing),
-                     static_cast<int>((at.y - square.y) / spacing)};
+    return Cell{static_cast<int>((at.y - square.y) / spacing) + 1,
+                static_cast<int>((at.x - square.x) / spacing) + 1};
   };
   const auto mark = [&](ImVec2 at, TerrainFlag flag) {
-    const auto [x, y] = square_of(at);
-    marked.insert({x, y, flag});
+    const Cell in = square_of(at);
+    for (int k = 0; k < 9; ++k) {
+      marked.at(in.row + k / 3 - 1, in.col + k % 3 - 1) |= flag;
+    }
     Mark(Canvas(), style, at, flag);
   };
   const float cell_w = square.w / static_cast<float>(flags.cols()),
               cell_h = square.h / static_cast<float>(flags.rows());
   for (float y = square.y + spacing / 2; y < square.bottom(); y += spacing) {
     for (float x = square.x + spacing / 2; x < square.right(); x += spacing) {
-      const TerrainFlag flag = FirstOf(flags.at(static_cast<int>((y - square.y) / cell_h),
-                                                static_cast<int>((x - square.x) / cell_w)));
+      const int row = std::min(static_cast<int>((y - square.y) / cell_h), flags.rows() - 1),
+                col = std::min(static_cast<int>((x - square.x) / cell_w), flags.cols() - 1);
+      const TerrainFlag flag = FirstOf(flags.at(row, col));
       if (flag != kFlagNone) {
         mark({x, y}, flag);
       }
@@ -103,18 +108,13 @@ void DrawFlagsOnMap(const Style& style, const Rect& square, const Grid<std::uint
   // What falls between them, and has none of its kind beside it, has one where it is.
   for (int row = 0; row < flags.rows(); ++row) {
     for (int col = 0; col < flags.cols(); ++col) {
-      const TerrainFlag flag = FirstOf(flags.at(row, col));
-      if (flag == kFlagNone) {
+      if (flags.at(row, col) == kFlagNone) {
         continue;
       }
+      const TerrainFlag flag = FirstOf(flags.at(row, col));
       const ImVec2 at{square.x + cell_w * (static_cast<float>(col) + 0.5f),
                       square.y + cell_h * (static_cast<float>(row) + 0.5f)};
-      const auto [x, y] = square_of(at);
-      bool beside = false;
-      for (int k = 0; k < 9; ++k) {
-        beside = beside || marked.contains({x + k / 3 - 1, y + k % 3 - 1, flag});
-      }
-      if (!beside) {
+      if (flag != kFlagNone && (marked.at(square_of(at)) & flag) == 0) {
         mark(at, flag);
       }
     }
