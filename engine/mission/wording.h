@@ -64,7 +64,7 @@ inline constexpr const char* kCommandsAlready = "This station commands already";
 inline constexpr const char* kReleased = "Command given back by the operator";
 std::string AskedForCommand(const AskForCommand& action, const std::string& holder);
 std::string CommandLostTo(const std::string& why);
-/// "Vehicle aborts by itself: no position estimate for 2.0 s, limit 2.0 s", or without a reason.
+/// "Vehicle aborts by itself: no position from vision for 2.0 s, limit 2.0 s", or without a reason.
 std::string VehicleAborts(const std::string& reason);
 /// "Vision lost for 2.1 s, limit 2.0 s (left camera shows nothing)"; `why` is not empty.
 std::string Because(const std::string& what, std::string why);

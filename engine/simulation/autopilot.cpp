@@ -212,7 +212,7 @@ void Autopilot::StepMode(Timestamp now) {
   if (flies_on_vision_ && VisionAge(now) > kAbortAfter_s) {
     if (approval_) {
       Acknowledge(approval_->id,
-                  WithNumbers("no position estimate for %.1f s, limit %.1f s", VisionAge(now),
+                  WithNumbers("no position from vision for %.1f s, limit %.1f s", VisionAge(now),
                               kAbortAfter_s),
                   now);
     }

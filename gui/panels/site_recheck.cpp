@@ -84,14 +84,16 @@ void DrawSchedule(const EngineSnapshot& snap, const Rect& column, float y, UiFra
   const MissionStatus& m = snap.flight->mission;
   const double until_m =
       m.IsLook() ? m.stop_height_m : snap.session->settings.slad.fusion.commit_height_m;
-  const bool over = m.state == MissionState::kLanded || m.height_above_site_m < until_m;
+  const bool waved_off = m.state == MissionState::kAborting;
+  const bool over =
+      waved_off || m.state == MissionState::kLanded || m.height_above_site_m < until_m;
   FillRect(Canvas(), {column.x, y - s.Px(4), column.w, s.Px(1)}, p.line);
   DrawIcon(Canvas(), over ? Icon::kDone : Icon::kStale, {column.x + s.Px(6), y + s.Px(14)},
            s.Px(12), p.text2);
   DrawText(ui, s.body, p.text1, column.x + s.Px(20), y + s.Px(14),
            over ? "No more maps" : "Each new map");
   DrawText(ui, s.caption, p.text2, column.x + s.Px(20), y + s.Px(34),
-           (over ? "below " : "down to ") + Fixed(until_m, 1) + " m");
+           waved_off ? "waved off" : (over ? "below " : "down to ") + Fixed(until_m, 1) + " m");
 }
 
 /// The site's own reason compares it with the best of its map, which nobody may have chosen.

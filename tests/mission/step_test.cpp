@@ -113,10 +113,10 @@ INSTANTIATE_TEST_SUITE_P(
         Row{"DescendingOnAbortWithAReason", S::kDescending,
             [](MissionRig& r) {
               r.vehicle.acks.push_back({r.now, r.vehicle.approval_id, AckResult::kRefused,
-                                        "no position estimate for 2.0 s"});
+                                        "no position from vision for 2.0 s"});
               r.vehicle.Set(VehicleMode::kAbort);
             },
-            S::kAborting, "Vehicle aborts by itself: no position estimate for 2.0 s", kAbort},
+            S::kAborting, "Vehicle aborts by itself: no position from vision for 2.0 s", kAbort},
         Row{"DescendingOnNoHeight", S::kDescending, [](MissionRig& r) { r.vehicle.height_m = NAN; },
             S::kHold, "Height above the site is unknown", kHold},
         Row{"DescendingOnGround", S::kDescending,

@@ -364,7 +364,7 @@ TEST(Autopilot, AFrozenSenderIsStaleToo) {
   EXPECT_TRUE(aborted);
   EXPECT_EQ(flight.acks.back().command_id, flight.approval_id);
   EXPECT_EQ(flight.acks.back().result, AckResult::kRefused);
-  EXPECT_EQ(flight.acks.back().reason.find("no position estimate for 2.0"), 0u)
+  EXPECT_EQ(flight.acks.back().reason.find("no position from vision for 2.0"), 0u)
       << flight.acks.back().reason;
 }
 

@@ -1,4 +1,7 @@
 // What the screen answers to "why": the box beside a probed cell, a site's rank, a re-check.
+#include <algorithm>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "engine/model/cell_explanation.h"
@@ -126,6 +129,19 @@ TEST(FlyDescent, TheKeptAlternativeIsComparedWithTheSiteFlownAndALossHasItsReaso
     }
     EXPECT_TRUE(said);
     ExpectTextsInPanels(degraded.ui.items);
+  }
+}
+
+TEST(FlyDescent, NoMapIsAskedOfASiteThatWasLeft) {
+  for (const MissionState state : {MissionState::kDescending, MissionState::kAborting}) {
+    FlyWindow window(1920, 1080, fake::Snapshot(state));
+    const std::vector<Item>& items = window.ui.items.items();
+    const auto says = [&](const char* text) {
+      return std::any_of(items.begin(), items.end(), [&](const Item& i) { return i.text == text; });
+    };
+    const bool left = state == MissionState::kAborting;
+    EXPECT_EQ(says("Each new map"), !left);
+    EXPECT_EQ(says("No more maps") && says("waved off"), left);
   }
 }
 
