@@ -25,6 +25,7 @@ struct RejectedCells {
   int roughness = 0;  ///< roughness or step
   int unknown = 0;
   int flagged = 0;    ///< thin structure, no texture, motion, elevated surface
+  int doubtful = 0;   ///< inside every limit as measured, but with too small a chance: noise
   int footprint = 0;  ///< no hazard, but too near one, or over a limit under the lander
 };
 

@@ -107,11 +107,10 @@ std::string AnalyzeJson(const AnalyzeOutcome& o) {
                   {"cell_m", g.cell_m},
                   {"north_min_m", g.north_min_m},
                   {"east_min_m", g.east_min_m}};
-  json["rejected"] = {{"slope", o.hazards().rejected.slope},
-                      {"roughness", o.hazards().rejected.roughness},
-                      {"unknown", o.hazards().rejected.unknown},
-                      {"flagged", o.hazards().rejected.flagged},
-                      {"footprint", o.hazards().rejected.footprint}};
+  json["rejected"] = {
+      {"slope", o.hazards().rejected.slope},       {"roughness", o.hazards().rejected.roughness},
+      {"unknown", o.hazards().rejected.unknown},   {"flagged", o.hazards().rejected.flagged},
+      {"doubtful", o.hazards().rejected.doubtful}, {"footprint", o.hazards().rejected.footprint}};
   if (o.input.pairs > 0) {
     json["pairs"] = o.input.pairs;
     json["pairs_in_map"] = o.input.pairs_in_map;

@@ -75,8 +75,9 @@ std::vector<std::string> Summary(const AnalyzeOutcome& o) {
       WithNumbers("Not safe for slope %.1f %%, roughness or step %.1f %%, unknown %.1f %%",
                   100 * n.slope / all, 100 * n.roughness / all, 100 * n.unknown / all));
   lines.push_back(
-      WithNumbers("Not safe for a flag (raised surface, water, wire ..) %.1f %%, footprint %.1f %%",
-                  100 * n.flagged / all, 100 * n.footprint / all));
+      WithNumbers("Not safe for a flag (raised surface, water, wire ..) %.1f %%, not sure enough "
+                  "%.1f %%, footprint %.1f %%",
+                  100 * n.flagged / all, 100 * n.doubtful / all, 100 * n.footprint / all));
   for (const std::string& warning : o.input.warnings) {
     lines.push_back("Warning: " + warning);
   }

@@ -37,8 +37,9 @@ SiteContext Overhead() {
 SiteSelection ExpectHonest(const ElevationMap& map, const SladSettings& settings) {
   const HazardMaps hazards = EvaluateHazards(map, settings);
   const RejectedCells& n = hazards.rejected;
-  EXPECT_EQ(n.slope + n.roughness + n.unknown + n.flagged + n.footprint + hazards.safe_cells,
-            map.geometry.rows * map.geometry.cols);
+  EXPECT_EQ(
+      n.slope + n.roughness + n.unknown + n.flagged + n.doubtful + n.footprint + hazards.safe_cells,
+      map.geometry.rows * map.geometry.cols);
   SiteSelection selection = SelectSites(map, hazards, settings, Overhead());
   EXPECT_EQ(selection.sites.empty(), !selection.none_reason.empty());
   const bool modern = settings.mode == SladMode::kModern;

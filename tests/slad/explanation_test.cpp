@@ -103,7 +103,9 @@ TEST(CellExplanation, AgreesWithTheMapsEverywhere) {
             ASSERT_NE(decided, nullptr) << e.verdict;
           } else if (decided != nullptr) {
             counted.slope += decided->term == CellTerm::kSlope ? 1 : 0;
-            counted.roughness += decided->term != CellTerm::kSlope ? 1 : 0;
+            const bool doubted = decided->term == CellTerm::kProbability;
+            counted.doubtful += doubted ? 1 : 0;
+            counted.roughness += decided->term != CellTerm::kSlope && !doubted ? 1 : 0;
           } else {
             counted.unknown += e.can_bear ? 0 : 1;
           }
@@ -113,6 +115,7 @@ TEST(CellExplanation, AgreesWithTheMapsEverywhere) {
       EXPECT_EQ(counted.slope, hazards.rejected.slope);
       EXPECT_EQ(counted.roughness, hazards.rejected.roughness);
       EXPECT_EQ(counted.unknown, hazards.rejected.unknown);
+      EXPECT_EQ(counted.doubtful, hazards.rejected.doubtful);
       EXPECT_EQ(counted.footprint, hazards.rejected.footprint);
     }
   }

@@ -23,6 +23,7 @@ enum CountedAs {
   kAsRoughness,
   kAsUnknown,
   kAsFlagged,
+  kAsDoubtful,
   kAsFootprint,
   kAsSafe,
   kCountings
@@ -32,7 +33,7 @@ constexpr CountedAs CountingOf(unsigned reasons) {
          : (reasons & (kHazardRoughness | kHazardStep)) != 0 ? kAsRoughness
          : (reasons & kHazardUnknown) != 0                   ? kAsUnknown
          : (reasons & kHazardFlagged) != 0                   ? kAsFlagged
-         : (reasons & kHazardProbability) != 0               ? kAsRoughness
+         : (reasons & kHazardProbability) != 0               ? kAsDoubtful
                                                              : kAsSafe;
 }
 
@@ -165,10 +166,11 @@ void ClassifyCells(const SladSettings& settings, HazardMaps& hazards) {
     count[kAsSafe] -= n;
     count[kAsFootprint] += n;
   }
-  hazards.rejected = {count[kAsSlope], count[kAsRoughness], count[kAsUnknown], count[kAsFlagged],
-                      count[kAsFootprint]};
+  hazards.rejected = {count[kAsSlope],   count[kAsRoughness], count[kAsUnknown],
+                      count[kAsFlagged], count[kAsDoubtful],  count[kAsFootprint]};
   hazards.counts[GroundClass::kUnknown] = count[kAsUnknown];
-  hazards.counts[GroundClass::kHazard] = count[kAsSlope] + count[kAsRoughness] + count[kAsFlagged];
+  hazards.counts[GroundClass::kHazard] =
+      count[kAsSlope] + count[kAsRoughness] + count[kAsFlagged] + count[kAsDoubtful];
   hazards.counts[GroundClass::kLandable] = hazards.safe_cells = count[kAsSafe];
 }
 

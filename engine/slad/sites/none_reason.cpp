@@ -43,10 +43,11 @@ std::string NoneReason(const ElevationMap& map, const HazardMaps& hazards,
       {n.roughness, "roughness"},
       {n.unknown, "unknown"},
       {n.flagged, FlaggedWords(hazards, settings.limits)},
+      {n.doubtful, "not sure enough"},
       {hazards.counts[GroundClass::kTooNear], "too near a hazard"},
       {hazards.counts[GroundClass::kFootprint], "over a limit under the lander"}};
   const int total =
-      n.slope + n.roughness + n.unknown + n.flagged + n.footprint + hazards.safe_cells;
+      n.slope + n.roughness + n.unknown + n.flagged + n.doubtful + n.footprint + hazards.safe_cells;
   if (total == 0) {
     return "empty map";
   }

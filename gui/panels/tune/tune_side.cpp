@@ -34,13 +34,13 @@ std::vector<CellCount> CountCells(const Style& s, const TuneFacts& f, bool split
   };
   add(Ground::kLandable, GroundClassWord(Ground::kLandable), p.bar, 0);
   if (split) {
-    const auto flagged = [](const HazardMaps& maps) {
-      return maps.counts[Ground::kHazard] - maps.rejected.slope - maps.rejected.roughness;
-    };
     cells.push_back({"Over slope", now.rejected.slope, was.rejected.slope, 0, p.unsafe});
     cells.push_back({"Over roughness", now.rejected.roughness, was.rejected.roughness,
                      WithAlpha(p.unsafe, 0.35f), p.unsafe});
-    cells.push_back({"Flagged", flagged(now), flagged(was), WithAlpha(p.unsafe, 0.7f), 0});
+    cells.push_back(
+        {"Flagged", now.rejected.flagged, was.rejected.flagged, WithAlpha(p.unsafe, 0.7f), 0});
+    cells.push_back({"Not sure enough", now.rejected.doubtful, was.rejected.doubtful,
+                     WithAlpha(p.unsafe, 0.2f), 0});
   } else {
     add(Ground::kHazard, GroundClassWord(Ground::kHazard), 0, p.unsafe);
   }
@@ -168,8 +168,8 @@ void DrawCellsPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const TuneFacts facts = FactsOf(snap);
-  constexpr float kHead = 28 + 4 + 14 + 8, kRow = 19;
-  const std::vector<CellCount> counts = CountCells(s, facts, rect.h >= s.Px(kHead + 7 * kRow));
+  constexpr float kHead = 28 + 4 + 14 + 8, kRow = 17;
+  const std::vector<CellCount> counts = CountCells(s, facts, rect.h >= s.Px(kHead + 8 * kRow));
   int total = 0;
   for (const CellCount& c : counts) {
     total += c.now;

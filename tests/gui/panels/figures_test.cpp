@@ -39,8 +39,12 @@ TEST(TuneCells, AreTheClassesOfTheGround) {
   hazards->counts[GroundClass::kTooNear] = 400;
   hazards->counts[GroundClass::kFootprint] = 73;
   hazards->counts[GroundClass::kUnknown] = 6400;
-  hazards->rejected = {
-      .slope = 404, .roughness = 96, .unknown = 6400, .flagged = 100, .footprint = 473};
+  hazards->rejected = {.slope = 404,
+                       .roughness = 96,
+                       .unknown = 6400,
+                       .flagged = 60,
+                       .doubtful = 40,
+                       .footprint = 473};
   decision->hazards = hazards;
   snap.terrain.Edit().applied = decision;
   const auto cells = [&](const Rect& rect, const char* name) {
@@ -58,7 +62,8 @@ TEST(TuneCells, AreTheClassesOfTheGround) {
   }
   EXPECT_EQ(cells(tall, "Over slope"), "404");
   EXPECT_EQ(cells(tall, "Over roughness"), "96");
-  EXPECT_EQ(cells(tall, "Flagged"), "100");
+  EXPECT_EQ(cells(tall, "Flagged"), "60");
+  EXPECT_EQ(cells(tall, "Not sure enough"), "40");
   EXPECT_EQ(cells(low, "Hazard"), "600");
 }
 
