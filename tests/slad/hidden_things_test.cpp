@@ -123,11 +123,11 @@ TEST(MarkedThings, AreThingsAsOftenAsOneSoHighReachesTheLimit) {
   EXPECT_NEAR(marked(1, 0.4, &near_m), 0, 1e-6) << "the hazard's own";
 }
 
-TEST(MarkedThings, TakeANearerLookAndNoGroundAway) {
+TEST(MarkedThings, ThatAreLessThanAThingTakeANearerLookAndNoGroundAway) {
   ElevationMap map = MapThatShows(0, 0.003, 0.35);
   map.narrow.mark = map.narrow.mark_from_m = GridF(82, 82, 0.0F);
   const HazardMaps bare = EvaluateHazards(map, SladSettings{});
-  map.narrow.mark.at(2 * kMiddle.row, 2 * kMiddle.col) = 0.7F;
+  map.narrow.mark.at(2 * kMiddle.row, 2 * kMiddle.col) = 0.4F;
   map.narrow.mark_from_m.at(2 * kMiddle.row, 2 * kMiddle.col) = 1;
   const HazardMaps marked = EvaluateHazards(map, SladSettings{});
   const auto hidden = [](const HazardMaps& maps) {
@@ -146,6 +146,26 @@ TEST(MarkedThings, TakeANearerLookAndNoGroundAway) {
   EXPECT_NEAR(as_seen(marked), as_seen(bare), 1e-6);
   map.narrow.mark.at(2 * kMiddle.row, 2 * kMiddle.col) = 0.1F;
   EXPECT_NEAR(hidden(EvaluateHazards(map, SladSettings{})) - hidden(bare), 0.1, 1e-6);
+}
+
+TEST(MarkedThings, ThatRatherAreAThingAreHazards) {
+  ElevationMap map = MapThatShows(0, 0.003, 0.35);
+  map.narrow.mark = map.narrow.mark_from_m = GridF(82, 82, 0.0F);
+  map.narrow.mark.at(2 * kMiddle.row, 2 * kMiddle.col) = 0.6F;
+  float& from_m = map.narrow.mark_from_m.at(2 * kMiddle.row, 2 * kMiddle.col);
+  from_m = 1;
+  const SladSettings settings;
+  const HazardMaps marked = EvaluateHazards(map, settings);
+  EXPECT_EQ(marked.reasons.at(kMiddle), kHazardFlagged);
+  EXPECT_EQ(marked.flags.at(kMiddle), kFlagUnexplained);
+  EXPECT_EQ(marked.safe_distance_m.at(kMiddle), 0);
+  EXPECT_EQ(marked.ground.at(kMiddle), GroundClass::kHazard);
+  const Cell beside{kMiddle.row, kMiddle.col + 4};
+  EXPECT_LT(marked.safe_distance_m.at(beside), 4 * map.geometry.cell_m);
+  EXPECT_LT(static_cast<double>(marked.hidden_things.at(beside)), kMostHiddenProvisional)
+      << "what is a hazard hides no more";
+  from_m = static_cast<float>(1.2 * kLimit_m / 2);  // a quarter of such things reach the limit
+  EXPECT_EQ(EvaluateHazards(map, settings).reasons.at(kMiddle), kHazardNone);
 }
 
 TEST(HiddenThings, AFigureThatIsNotWholeIsUnknownGround) {

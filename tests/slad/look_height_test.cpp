@@ -94,7 +94,7 @@ TEST(LookHeight, AMarkedPlaceHasNone) {
     ElevationMap map = MakeMap(101, 101, 0.15, Flat(), 0.02);
     map.air_seen_to_m = GridF(101, 101, 9.0F);
     map.narrow = ThatShow(map.geometry, 0, 0.02);
-    map.narrow.mark = map.narrow.mark_from_m = GridF(202, 202, is_marked ? 1.0F : 0.0F);
+    map.narrow.mark = map.narrow.mark_from_m = GridF(202, 202, is_marked ? 0.4F : 0.0F);
     const LandingSite site = Select(map, {}, context).sites.at(0);
     EXPECT_EQ(IsMarked(site), is_marked);
     EXPECT_EQ(std::isfinite(site.look_height_m), !is_marked);

@@ -25,7 +25,7 @@ Grid<FinePlace> Drawn(const auto& times) {
     for (int c = 0; c < kSide; ++c) {
       const double sigma = std::sqrt(times(r, c) * static_cast<double>(kKnown));
       auto& of = places.at(r, c).of;
-      of[P::kNet] = of[P::kGross] = of[P::kScatter] = of[P::kOtherGross] = kKnown;
+      of[P::kNet] = of[P::kGross] = of[P::kOtherGross] = kKnown;
       of[P::kOff] = static_cast<float>(sigma * random.Normal());
       of[P::kOther] = static_cast<float>(sigma * random.Normal());
     }
@@ -72,15 +72,13 @@ TEST(RepeatedNoise, AHeightIsNotTakenForNoise) {
     place.of[P::kShared] = kKnown / 3;
     place.of[P::kOff] = kHeight_m * kKnown;
     place.of[P::kOther] += kHeight_m * kKnown / 3;
-    place.of[P::kFourth] = kKnown * kKnown / 100;
-    place.of[P::kScatter] += kHeight_m * kHeight_m * place.of[P::kFourth];
   }
   const GridF raised = VarianceTimes(places);
   const Grid<FineKnown> known = WithRepeatedNoise(places);
   for (std::size_t i = 0; i < raised.cells().size(); ++i) {
     EXPECT_NEAR(raised.cells()[i], level.cells()[i], 0.5);
     EXPECT_NEAR(known.cells()[i].gross, kKnown * raised.cells()[i], 0.01 * kKnown)
-        << "25 times as much scatters by the height alone";
+        << "the height alone is 25 times as much";
   }
 }
 
@@ -93,19 +91,6 @@ TEST(RepeatedNoise, ThingsOnAThirdOfTheGroundDoNotMakeItAllNoise) {
   for (const float t : said.cells()) {
     EXPECT_LT(t, 7) << "the median of two thirds is 2.9 times that of all";
   }
-}
-
-TEST(RepeatedNoise, WhatScattersMoreThanItStatesIsKnownLess) {
-  Grid<FinePlace> places = Drawn([](int, int) { return 1; });
-  for (FinePlace& place : places.cells()) {
-    place.of[P::kOff] = 0;
-  }
-  places.at(40, 40).of[P::kScatter] = 9 * kKnown;
-  places.at(40, 41).of[P::kScatter] = kKnown / 9;
-  const GridF times = VarianceTimes(places);
-  const Grid<FineKnown> known = WithRepeatedNoise(places);
-  EXPECT_FLOAT_EQ(known.at(40, 40).gross, 9 * kKnown * times.at(40, 40));
-  EXPECT_FLOAT_EQ(known.at(40, 41).gross, kKnown * times.at(40, 41));
 }
 
 TEST(RepeatedNoise, GroundThatDoesNotAnswerIsAsTheRest) {

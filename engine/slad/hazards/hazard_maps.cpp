@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -12,6 +11,7 @@
 
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
+#include "engine/model/site_standing.h"
 #include "engine/slad/hazards/ground_classes.h"
 #include "engine/slad/hazards/hazard_layers.h"
 #include "engine/slad/hazards/hidden_things.h"
@@ -81,75 +81,9 @@ class Judge {
   const SladLoops& loops_ = FastestSladLoops();
 };
 
-/// The foot of an obstacle stands out less than the limit allows and belongs to the obstacle all
-/// the same: what touches a cell over a limit takes over its reason from this share of the limit on
-/// (hysteresis, as Canny 1986 follows edges), as far as a rock is wide.
-constexpr float kLowThreshold = 0.3F;
-
-/// First column from c on with one of the wanted reasons, `cols` without; most cells have none.
-int NextWith(unsigned wanted, const std::uint8_t* reasons, int c, int cols) {
-  const std::uint64_t in_any_of_eight = 0x0101010101010101U * wanted;
-  for (std::uint64_t eight = 0; c + 8 <= cols; c += 8) {
-    std::memcpy(&eight, reasons + c, 8);
-    if ((eight & in_any_of_eight) != 0) {
-      break;
-    }
-  }
-  while (c < cols && (reasons[c] & wanted) == 0) {
-    ++c;
-  }
-  return c;
-}
-
-/// One reason spreads from the cells that have it.
-void GrowFrom(std::vector<Cell> edge, HazardReason reason, int reach, float least_m,
-              const TerrainFigures& figures, HazardMaps& hazards) {
-  std::vector<Cell> grown;
-  for (int step = 0; step < reach && !edge.empty(); ++step) {
-    grown.clear();
-    for (const Cell& from : edge) {
-      for (int r = from.row - 1; r <= from.row + 1; ++r) {
-        for (int c = from.col - 1; c <= from.col + 1; ++c) {
-          const Cell cell{r, c};
-          if (hazards.geometry.Contains(cell) && (hazards.reasons.at(cell) & reason) == 0 &&
-              figures.deviation_m.at(cell) > least_m) {
-            hazards.reasons.at(cell) |= static_cast<std::uint8_t>(reason);
-            hazards.cost.at(cell) = 1;
-            grown.push_back(cell);
-          }
-        }
-      }
-    }
-    edge.swap(grown);
-  }
-}
-
-void GrowByHysteresis(const TerrainFigures& figures, const SladSettings& settings,
-                      HazardMaps& hazards) {
-  const GridGeometry& g = hazards.geometry;
-  const int reach = static_cast<int>(std::min(settings.lander.max_rock_size_m / g.cell_m, 1e6));
-  std::vector<Cell> rough, stepped;
-  for (int r = 0; reach > 0 && r < g.rows; ++r) {
-    const std::uint8_t* reasons = hazards.reasons.row(r);
-    constexpr unsigned kEither = kHazardRoughness | kHazardStep;
-    for (int c = NextWith(kEither, reasons, 0, g.cols); c < g.cols;
-         c = NextWith(kEither, reasons, c + 1, g.cols)) {
-      if ((reasons[c] & kHazardRoughness) != 0) {
-        rough.push_back({r, c});
-      }
-      if ((reasons[c] & kHazardStep) != 0) {
-        stepped.push_back({r, c});
-      }
-    }
-  }
-  const float least_m = kLowThreshold * static_cast<float>(settings.limits.max_deviation_m);
-  GrowFrom(std::move(rough), kHazardRoughness, reach, least_m, figures, hazards);
-  GrowFrom(std::move(stepped), kHazardStep, reach, least_m, figures, hazards);
-}
-
 /// A touchdown is safe when the gear finds what was measured safe and nothing hides. What a mark
-/// stands for nobody knows: marks count up to what may hide in a place that is offered, so that
-/// they ask for a nearer look and take no ground away.
+/// stands for that is no hazard yet nobody knows: such marks count up to what may hide in a place
+/// that is offered, so that they ask for a nearer look and take no ground away.
 void CountWhatHides(const NarrowFigures& narrow, const SladSettings& settings,
                     HazardMaps& hazards) {
   const NarrowView view{narrow, hazards.geometry.cell_m, settings.limits.max_deviation_m,
@@ -157,7 +91,7 @@ void CountWhatHides(const NarrowFigures& narrow, const SladSettings& settings,
   const double radius_m = settings.lander.clear_radius_m();
   hazards.hidden_things = HiddenThings(view, radius_m);
   if (!narrow.mark.empty()) {
-    FlagMarks(view, hazards.flags);
+    FlagMarks(view, kMostHiddenProvisional, hazards.flags);
     const GridF marked = MarkedThings(view, radius_m);
     const auto most = static_cast<float>(-std::log(kOffered));
     for (std::size_t i = 0; i < marked.cells().size(); ++i) {
@@ -217,7 +151,7 @@ ModernLimits LimitsOf(const SladSettings& settings, bool finer_measured) {
 }
 
 unsigned ForbiddenFlags(const HazardLimits& limits) {
-  const unsigned always = kFlagThinStructure | kFlagNoTexture | kFlagMotion;
+  const unsigned always = kFlagThinStructure | kFlagNoTexture | kFlagMotion | kFlagUnexplained;
   return limits.elevated == ElevatedSurface::kAvoid ? always | kFlagElevated : always;
 }
 
@@ -233,15 +167,16 @@ HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figu
     return hazards;
   }
   hazards = LayersFor(geometry, figures);
+  if (settings.mode == SladMode::kModern && !figures.narrow.mark.empty()) {
+    FlagMarks({figures.narrow, geometry.cell_m, settings.limits.max_deviation_m}, kRatherAThing,
+              hazards.flags);
+  }
   const Judge judge(figures, settings, hazards);
   cv::parallel_for_(cv::Range(0, geometry.rows), [&](const cv::Range& rows) {
     for (int r = rows.start; r < rows.end; ++r) {
       judge.Row(r);
     }
   });
-  if (settings.mode == SladMode::kModern) {
-    GrowByHysteresis(figures, settings, hazards);
-  }
   hazards.safe_distance_m =
       SafeDistance(hazards.reasons, geometry.cell_m,
                    settings.mode == SladMode::kThesis ? DistanceTo::kCentre : DistanceTo::kSquare);

@@ -5,9 +5,9 @@
 //
 // Modern mode keeps two notions apart. A CELL is a hazard (`reasons`) for what is wrong at that
 // cell: the ground plane around it is too steep, the cell stands off that plane, it makes a step,
-// or is unknown; so is an obstacle's foot: what touches a cell over the roughness or step limit,
-// stands out by 0.3 of the roughness limit and lies within max_rock_size_m. The layers slope,
-// roughness, step, cost and safe_probability speak of the lander's FOOTPRINT centred on the cell.
+// it is unknown, or has a flag that forbids it; so is a mark that rather is a thing than none
+// (hidden_things.h). The layers slope, roughness, step, cost and safe_probability speak of the
+// lander's FOOTPRINT centred on the cell.
 // Heights count only beyond their noise: a deviation r with sigma s has the value sqrt(max(0, r^2 -
 // 16 s^2)).
 //
@@ -30,7 +30,7 @@
 namespace palace {
 
 /// TerrainFlag bits that make a cell a hazard. Shadow alone does not: what little is seen there has
-/// its larger sigma.
+/// its larger sigma. Nor does a mark that is flagged once the cells are judged (kFlagUnexplained).
 unsigned ForbiddenFlags(const HazardLimits& limits);
 
 /// Works on any size of map, also empty or all unknown: then nothing is safe.

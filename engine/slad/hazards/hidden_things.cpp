@@ -193,11 +193,11 @@ GridF MarkedThings(const NarrowView& view, double radius_m) {
   return OverDiscs(view, radius_m, 0, [&](Cell cell) { return MarkHidesInCell(view, cell); });
 }
 
-void FlagMarks(const NarrowView& view, Grid<std::uint8_t>& flags) {
+void FlagMarks(const NarrowView& view, double beyond, Grid<std::uint8_t>& flags) {
   const int rows = view.narrow.share.rows() / kPerCell, cols = view.narrow.share.cols() / kPerCell;
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < cols; ++c) {
-      if (!(MarkHidesInCell(view, {r, c}) > kMostHiddenProvisional)) {
+      if (!(MarkHidesInCell(view, {r, c}) > beyond)) {
         continue;
       }
       if (flags.empty()) {

@@ -27,8 +27,9 @@
 // which no height is told, with chance m, h2 high at least. Of things that high the share
 // (h2 / 1.2 limits)^2 reaches over the limit, all where h2 does: rocks of a size are as many as its
 // square is small. A cell hides by the most of its places' m times that, once: a thing covers
-// several, in both pictures. Beside a hazard it is the hazard's own. Nobody knows what it is: their
-// sum over the disc counts up to what may hide in a place that is offered (kOffered).
+// several, in both pictures. Where that is more than a half the cell is a hazard. Beside one a mark
+// is the hazard's own. Of the others nobody knows what they are: their sum over the disc counts up
+// to what may hide in a place that is offered (kOffered).
 //
 // n is one number for all ground (CALIBRATION.md): among drawn worlds neither the things that a map
 // shows elsewhere nor the ground searched for them told it better.
@@ -62,9 +63,12 @@ GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2
 /// them.
 GridF MarkedThings(const NarrowView& view, double radius_m);
 
-/// Adds kFlagUnexplained to the flags of cells whose marks alone keep a site from being provisional
-/// (kMostHiddenProvisional). Flags that are empty become the map's if there is such a cell.
-void FlagMarks(const NarrowView& view, Grid<std::uint8_t>& flags);
+/// What a cell's marks hide when they rather are a thing over the limit than none.
+inline constexpr double kRatherAThing = 0.5;
+
+/// Adds kFlagUnexplained to the flags of cells whose marks alone hide more than `beyond`. Flags
+/// that are empty become the map's if there is such a cell.
+void FlagMarks(const NarrowView& view, double beyond, Grid<std::uint8_t>& flags);
 
 /// H of the disc around `centre` as bare ground would say it, were it seen along the same lines
 /// from `nearer` (above 0, at most 1) times as far: of each place the noise goes down as nearer^2,

@@ -94,8 +94,6 @@ void FineRelief::AddRows(const RangeMap& range, const ImageU8& left, const LaidO
       of[P::kNet] += net;
       of[P::kGross] += g * g * weight;
       of[P::kHeight] += height_m * net + answer;
-      of[P::kScatter] += answer * answer;
-      of[P::kFourth] += g * g * weight * (g * g * weight);
       of[P::kOff] += answer;
       of[P::kOtherGross] += c * c * weight;
       of[P::kOther] -= e * c * weight * per_pixel_m;

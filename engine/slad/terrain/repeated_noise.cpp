@@ -40,17 +40,6 @@ float SquaredAnswer(const FinePlace& place) {
   return static_cast<float>(answer * answer / variance);
 }
 
-/// G, or what the residuals scatter by about the height that they tell, if more.
-double Noise(const FinePlace& place) {
-  using P = FinePlace;
-  const double gross = Of(place, P::kGross), net = Of(place, P::kNet);
-  if (!(net > FineSum::kLeastNet)) {
-    return gross;
-  }
-  const double off_m = Of(place, P::kOff) / net;
-  return std::max(gross, Of(place, P::kScatter) - off_m * off_m * Of(place, P::kFourth));
-}
-
 /// Of each block; NaN where it says nothing.
 GridF BlockTimes(const GridF& squared) {
   GridF times((squared.rows() + kBlock - 1) / kBlock, (squared.cols() + kBlock - 1) / kBlock,
@@ -130,8 +119,7 @@ Grid<FineKnown> WithRepeatedNoise(const Grid<FinePlace>& places) {
   ForEach(known.rows(), [&](int r) {
     for (int c = 0; c < known.cols(); ++c) {
       const auto& of = places.at(r, c).of;
-      known.at(r, c) = {of[P::kNet], times.at(r, c) * static_cast<float>(Noise(places.at(r, c))),
-                        of[P::kHeight], of[P::kOff]};
+      known.at(r, c) = {of[P::kNet], times.at(r, c) * of[P::kGross], of[P::kHeight], of[P::kOff]};
     }
   });
   return known;

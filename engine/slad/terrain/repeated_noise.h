@@ -17,11 +17,6 @@
 // squared normal, for over things the residuals answer too: a height is no constant over a place.
 // To it comes what it may be too small by chance, three sigmas; less than 1 is taken as 1.
 //
-// Where single edges err more than the texture around, G itself is too small. Then what the
-// residuals scatter by about the height that they tell stands for it (White 1980):
-//
-//   sum (e g k w)^2 - (R / A)^2 sum (g^2 w)^2
-//
 // Measured on level ground of six textures by two renderers, 10 to 50 frames, still and moving: the
 // true variance is 0.8 to 13 times the stated one, and the median says 1.0 to 16. In a recorded
 // hover p / sigma (narrow_things.h, of the pictures alone) was normal with two sigmas: 0.66 in the
@@ -41,8 +36,6 @@ struct FinePlace {
     kNet,         ///< A, 1/m^2
     kGross,       ///< G, 1/m^2
     kHeight,      ///< J, 1/m
-    kScatter,     ///< sum (e g k w)^2, 1/m^2
-    kFourth,      ///< sum (g^2 w)^2, 1/m^4
     kOff,         ///< R, 1/m
     kOtherGross,  ///< sum c^2 w, 1/m^2
     kOther,       ///< -sum e c k w, 1/m
