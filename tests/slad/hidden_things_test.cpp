@@ -9,6 +9,7 @@
 #include "engine/model/cell_explanation.h"
 #include "engine/model/site_standing.h"
 #include "engine/slad/hazards/hazard_maps.h"
+#include "engine/slad/sites/none_reason.h"
 #include "tests/slad/worlds.h"
 
 namespace palace {
@@ -166,6 +167,25 @@ TEST(MarkedThings, ThatRatherAreAThingAreHazards) {
       << "what is a hazard hides no more";
   from_m = static_cast<float>(1.2 * kLimit_m / 2);  // a quarter of such things reach the limit
   EXPECT_EQ(EvaluateHazards(map, settings).reasons.at(kMiddle), kHazardNone);
+}
+
+TEST(MarkedThings, ThatRefuseNothingAreNotNamedAsWhatDoes) {
+  ElevationMap map = MapThatShows(0, 0.003, 0.35);
+  map.flags = Grid<std::uint8_t>(41, 41, kFlagNone);
+  map.flags.at(5, 5) = kFlagNoTexture;
+  map.narrow.mark = map.narrow.mark_from_m = GridF(82, 82, 0.0F);
+  for (const int row : {40, 50, 60}) {
+    map.narrow.mark.at(row, 40) = 0.4F;
+    map.narrow.mark_from_m.at(row, 40) = 1;
+  }
+  const SladSettings settings;
+  const std::string faint = NoneReason(map, EvaluateHazards(map, settings), settings);
+  EXPECT_NE(faint.find("flagged (no texture)"), std::string::npos) << faint;
+  for (const int row : {40, 50, 60}) {
+    map.narrow.mark.at(row, 40) = 0.6F;
+  }
+  const std::string sure = NoneReason(map, EvaluateHazards(map, settings), settings);
+  EXPECT_NE(sure.find("flagged (unexplained mark)"), std::string::npos) << sure;
 }
 
 TEST(HiddenThings, AFigureThatIsNotWholeIsUnknownGround) {

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <utility>
-#include <vector>
 
 #include <opencv2/core.hpp>
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,9 +19,11 @@ std::string FlaggedWords(const HazardMaps& hazards, const HazardLimits& limits) 
   unsigned most = kFlagNone;
   int cells = 0;
   for (unsigned flag = 1; flag <= forbidden; flag <<= 1U) {
-    const auto has = [&](std::uint8_t flags) { return (flags & flag & forbidden) != 0; };
-    const auto count = static_cast<int>(
-        std::count_if(hazards.flags.cells().begin(), hazards.flags.cells().end(), has));
+    int count = 0;  // a faint mark is flagged and refuses nothing
+    for (std::size_t i = 0; i < hazards.flags.cells().size(); ++i) {
+      const bool refused = (hazards.reasons.cells()[i] & kHazardFlagged) != 0;
+      count += refused && (hazards.flags.cells()[i] & flag & forbidden) != 0 ? 1 : 0;
+    }
     if (count > cells) {
       cells = count;
       most = flag;
