@@ -87,6 +87,12 @@ Tally TallyThings(const ThingField& field, const ViewPlan& plan, const HazardMap
   return tally;
 }
 
+/// Whether something is known of a cell: that it shows no texture is not.
+bool IsKnown(const HazardMaps& hazards, Cell cell) {
+  return (hazards.reasons.at(cell) & kHazardUnknown) == 0 &&
+         (hazards.flags.at(cell) & kFlagNoTexture) == 0;
+}
+
 /// Footprints whose clear radius is known everywhere.
 Tally TallyFootprints(const HazardMaps& hazards, double clear_radius_m) {
   Tally tally;
@@ -95,9 +101,8 @@ Tally TallyFootprints(const HazardMaps& hazards, double clear_radius_m) {
   for (int row = reach; row < g.rows - reach; ++row) {
     for (int col = reach; col < g.cols - reach; ++col) {
       bool known = true;
-      ForCellsNear(g, {g.NorthOfRow(row), g.EastOfCol(col)}, clear_radius_m, [&](Cell cell) {
-        known = known && (hazards.reasons.at(cell) & kHazardUnknown) == 0;
-      });
+      ForCellsNear(g, {g.NorthOfRow(row), g.EastOfCol(col)}, clear_radius_m,
+                   [&](Cell cell) { known = known && IsKnown(hazards, cell); });
       const bool landable = hazards.ground.at(row, col) == GroundClass::kLandable;
       tally.asked += known ? 1 : 0;
       tally.found += known && !landable ? 1 : 0;
@@ -181,8 +186,9 @@ ExperimentReport Report(const TrialTable& table) {
           "Shares with 95 % intervals (Wilson). Found: a cell that the thing touches is a hazard. "
           "Not seen: its cells are unknown, or more may hide about its middle than under a "
           "confirmed site. Missed: neither, so that a site there may be confirmed. Of bare ground: "
-          "footprints, known everywhere within the clear radius, that are refused, under which too "
-          "much may hide, and the others: sure. Footprints of one field are related.")
+          "footprints, known everywhere within the clear radius (nowhere \"no texture\"), that are "
+          "refused, under which too much may hide, and the others: sure. Footprints of one field "
+          "are related.")
       .Table({"Thing", "Height", "Found (bare: refused)", "Not seen", "Missed (bare: sure)"}, rows);
   return report;
 }

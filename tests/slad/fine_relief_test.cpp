@@ -2,11 +2,15 @@
 #include "engine/slad/terrain/fine_relief.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "engine/core/frames.h"
+#include "engine/slad/terrain/laid_over.h"
 #include "tests/slad/textured_pair.h"
 
 namespace palace {
@@ -78,6 +82,19 @@ TEST(FineRelief, MoreFramesAndMoreTextureKnowMore) {
   EXPECT_TRUE(!bare.known() || bare.variance_m2() > 100 * one) << "no texture tells nothing";
 }
 
+TEST(FineRelief, NoPixelKnowsADisparityBetterThanTwoSamplingsOfAnEdge) {
+  // Where edges are hard it hardly matters how little the cameras' noise is.
+  const RangeMap range = SeeTexture(Flat(), WavyTexture(40, 1), kHeight_m, 0, 1).range;
+  const double pixel_m = kHeight_m / range.camera.fx_px;
+  const double pixels = std::pow(2 * FineRelief::PlacesOf(kMap).cell_m / pixel_m, 2);
+  const double sampling_m = 0.14 * kHeight_m * kHeight_m / range.FocalTimesBaseline();
+  for (const double noise_grey : {0.5, 0.2, 0.0}) {
+    const double variance_m2 = At(Look(Flat(), 1, 40, noise_grey), 0, 0).variance_m2();
+    EXPECT_GT(variance_m2, 0.9 * sampling_m * sampling_m / pixels) << noise_grey;
+    EXPECT_LT(variance_m2, 2.5 * sampling_m * sampling_m / pixels) << noise_grey;
+  }
+}
+
 TEST(FineRelief, NoiseThatEveryFrameRepeatsIsNotAveragedAway) {
   const WavyTexture texture(10, 1);
   const auto pair = SeeTexture(Flat(), texture, kHeight_m, 2, 1);
@@ -104,6 +121,95 @@ TEST(FineRelief, OnlySoManyFramesAreRemembered) {
   }
   const auto information = [](const FineRelief& of) { return At(of, 0, 0).of[FineSum::kA]; };
   EXPECT_NEAR(information(relief) / information(Look(Flat(), 2)), 1, 0.2);
+}
+
+/// The sums of fine_relief.h, pixel by pixel, in doubles, from points in W.
+Grid<FinePlace> PlainSums(const testing::TexturedPair& pair, const PlaneCorrection& off) {
+  const GridGeometry places = FineRelief::PlacesOf(kMap);
+  const LaidOver laid = LayOver(pair.left, pair.right, pair.range.disparity_px);
+  const PinholeCamera& camera = pair.range.camera;
+  const RigidTransform& X_WC = pair.range.pose->X_WC;
+  const double reference_m = HeightFromDown(X_WC.p.z());
+  std::vector<std::array<double, FinePlace::kCount>> sums(
+      static_cast<std::size_t>(places.rows * places.cols));
+  const auto gradient = [&](int x, int y) {
+    const auto grey = [&](int dx) { return static_cast<double>(laid.left.at(x + dx, y)); };
+    return (grey(-2) - 8 * grey(-1) + 8 * grey(1) - grey(2)) / 12;
+  };
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 2; x < camera.width - 2; ++x) {
+      const auto d = static_cast<double>(laid.disparity_px.at(x, y));
+      if (laid.known.at(x, y) == 0) {
+        continue;
+      }
+      const double depth_m = pair.range.FocalTimesBaseline() / d;
+      const Eigen::Vector3d ray_W = X_WC.R * Eigen::Vector3d((x - camera.cx_px) / camera.fx_px,
+                                                             (y - camera.cy_px) / camera.fy_px, 1);
+      const Eigen::Vector3d p_W = X_WC.p + depth_m * ray_W;
+      const auto cell = places.CellFromPoint(p_W.x(), p_W.y());
+      if (!cell) {
+        continue;
+      }
+      const double height_m = HeightFromDown(p_W.z()) - reference_m - off.At(p_W.x(), p_W.y());
+      const double k = ray_W.z() * depth_m / d, g = gradient(x, y),
+                   c = gradient(x, y + 8 < camera.height ? y + 8 : y - 8);
+      const auto e = static_cast<double>(laid.residual.at(x, y));
+      const auto s2 = static_cast<double>(
+          laid.noise2.at(std::min(x / LaidOver::kPatch_px, laid.noise2.width() - 1),
+                         std::min(y / LaidOver::kPatch_px, laid.noise2.height() - 1)));
+      const double w = 1 / (k * k * (s2 + 0.02 * g * g));
+      auto& of = sums[static_cast<std::size_t>(cell->row * places.cols + cell->col)];
+      of[FinePlace::kNet] += (g * g - 0.30 * s2) * w;
+      of[FinePlace::kGross] += g * g * w;
+      of[FinePlace::kHeight] += height_m * (g * g - 0.30 * s2) * w - e * g * k * w;
+      of[FinePlace::kOff] -= e * g * k * w;
+      of[FinePlace::kOtherGross] += c * c * w;
+      of[FinePlace::kOther] -= e * c * k * w;
+      of[FinePlace::kShared] += g * c * w;
+      of[FinePlace::kEnergy] += e * e / (s2 + 0.04 * g * g);
+      of[FinePlace::kPixels] += 1;
+    }
+  }
+  Grid<FinePlace> plain(places.rows, places.cols);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    for (std::size_t k = 0; k < sums[i].size(); ++k) {
+      plain.cells()[i].of[k] = static_cast<float>(sums[i][k]);
+    }
+  }
+  return plain;
+}
+
+TEST(FineRelief, ItsStripesSumToWhatOnePlainLoopSums) {
+  // From such a height no row of pixels falls on a border between places.
+  const auto pair =
+      SeeTexture(WithBox(Flat(), 0.5, 0.5, 0.3, 0.1), WavyTexture(30, 1), 9.713, 2, 1, 0.307);
+  const PlaneCorrection off{0.04, 0.01, -0.02, 0, 0};
+  FineRelief relief;
+  relief.MoveTo(kMap);
+  relief.Add(pair.range, pair.left, pair.right, off, 50);
+  const Grid<FinePlace> plain = PlainSums(pair, off);
+  int same = 0, seen = 0;
+  std::array<double, FinePlace::kCount> all{}, all_plain{};
+  for (std::size_t i = 0; i < plain.cells().size(); ++i) {
+    const auto &of = relief.seen().cells()[i].of, &slow = plain.cells()[i].of;
+    seen += slow[FinePlace::kPixels] > 0 ? 1 : 0;
+    bool alike = slow[FinePlace::kPixels] > 0;
+    for (std::size_t k = 0; k < of.size(); ++k) {
+      all[k] += static_cast<double>(of[k]);
+      all_plain[k] += static_cast<double>(slow[k]);
+      // Sums of both signs keep fewer digits than the largest of their terms.
+      const double scale = std::max(1.0, static_cast<double>(slow[FinePlace::kGross]));
+      alike = alike && std::abs(static_cast<double>(of[k] - slow[k])) < 2e-3 * scale;
+    }
+    same += alike ? 1 : 0;
+  }
+  EXPECT_GT(seen, 1000);
+  EXPECT_GT(same, 0.98 * seen) << "of the rest a pixel lies on a border";
+  EXPECT_EQ(all[FinePlace::kPixels], all_plain[FinePlace::kPixels]);
+  for (const auto k : {FinePlace::kNet, FinePlace::kGross, FinePlace::kHeight,
+                       FinePlace::kOtherGross, FinePlace::kEnergy}) {
+    EXPECT_NEAR(all[k] / all_plain[k], 1, 1e-3) << k;
+  }
 }
 
 TEST(FineRelief, FollowsTheMapAndForgetsWhatItIsTold) {

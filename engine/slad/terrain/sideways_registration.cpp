@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "engine/core/check.h"
 #include "engine/slad/side_by_side.h"
+#include "engine/slad/terrain/shift_correlations.h"
 
 namespace palace {
 namespace {
@@ -88,13 +88,8 @@ GridF SquareSums(const GridF& values) {
   return sums;
 }
 
-/// Grey off its local mean, and where it is known (1 or 0).
-struct Detail {
-  GridF off, known;
-};
-
-Detail DetailOf(const GridF& grey) {
-  Detail detail{grey, GridF(grey.rows(), grey.cols(), 0.0F)};
+GreyDetail DetailOf(const GridF& grey) {
+  GreyDetail detail{grey, GridF(grey.rows(), grey.cols(), 0.0F)};
   for (std::size_t i = 0; i < grey.cells().size(); ++i) {
     const bool known = !std::isnan(grey.cells()[i]);
     detail.known.cells()[i] = known ? 1.0F : 0.0F;
@@ -109,9 +104,9 @@ Detail DetailOf(const GridF& grey) {
 }
 
 /// Two by two cells as one, known where any is.
-Detail Coarser(const Detail& fine) {
+GreyDetail Coarser(const GreyDetail& fine) {
   const int rows = fine.off.rows() / 2, cols = fine.off.cols() / 2;
-  Detail coarse{GridF(rows, cols, 0.0F), GridF(rows, cols, 0.0F)};
+  GreyDetail coarse{GridF(rows, cols, 0.0F), GridF(rows, cols, 0.0F)};
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < cols; ++c) {
       float sum = 0, count = 0;
@@ -125,104 +120,6 @@ Detail Coarser(const Detail& fine) {
   }
   return coarse;
 }
-
-struct CellShift {
-  int rows = 0, cols = 0;  ///< what is at (r, c) of the frame lies at (r + rows, c + cols)
-};
-
-/// Normalised correlations of a frame with the mosaic, for the shifts around one: -1 with too
-/// little in common.
-class Correlations {
- public:
-  /// For `reach` cells each way from `middle`. The rows of shifts are shared among threads.
-  Correlations(const Detail& frame, const Detail& mosaic, const CellShift& middle, int reach,
-               int least_common)
-      : middle_(middle), reach_(reach), of_(2 * reach + 1, 2 * reach + 1, -1) {
-    const int blocks = (of_.cols() + kLanes - 1) / kLanes;
-    // Beyond its rim nothing of the mosaic is known.
-    const int pad = std::abs(middle.cols) + reach + kLanes;
-    const Detail padded{Padded(mosaic.off, pad), Padded(mosaic.known, pad)};
-    ForEach(of_.rows() * blocks, [&](int i) {
-      const int row = i / blocks, col = i % blocks * kLanes;
-      const Sums sums =
-          SumUp(frame, padded, middle.rows + row - reach, pad + middle.cols + col - reach);
-      for (int lane = 0; lane < std::min(kLanes, of_.cols() - col); ++lane) {
-        if (sums.common[lane] >= least_common && sums.ff[lane] > 0 && sums.mm[lane] > 0) {
-          of_.at(row, col + lane) = sums.fm[lane] / std::sqrt(sums.ff[lane] * sums.mm[lane]);
-        }
-      }
-    });
-  }
-
-  /// What is at (r, c) of the frame lies at (r + rows, c + cols) of the mosaic.
-  double At(const CellShift& shift) const {
-    return of_.at(shift.rows - middle_.rows + reach_, shift.cols - middle_.cols + reach_);
-  }
-
-  /// The first of the best in the order of rows and columns, `reach` each way from the middle;
-  /// empty where none has enough in common.
-  std::optional<CellShift> Best(int reach) const {
-    std::optional<CellShift> best;
-    for (int rows = middle_.rows - reach; rows <= middle_.rows + reach; ++rows) {
-      for (int cols = middle_.cols - reach; cols <= middle_.cols + reach; ++cols) {
-        const CellShift shift{rows, cols};
-        if (At(shift) > (best ? At(*best) : -1.0)) {
-          best = shift;
-        }
-      }
-    }
-    return best;
-  }
-
- private:
-  /// Shifts beside each other are summed together: one after the other each sum would wait for
-  /// itself.
-  static constexpr int kLanes = 8;
-  using Lanes = Eigen::Array<float, kLanes, 1>;
-  using Sum = Eigen::Array<double, kLanes, 1>;
-  struct Sums {
-    Sum fm = Sum::Zero(), ff = Sum::Zero(), mm = Sum::Zero(), common = Sum::Zero();
-  };
-
-  static GridF Padded(const GridF& layer, int pad) {
-    GridF padded(layer.rows(), layer.cols() + 2 * pad, 0.0F);
-    for (int r = 0; r < layer.rows(); ++r) {
-      std::copy_n(layer.row(r), layer.cols(), padded.row(r) + pad);
-    }
-    return padded;
-  }
-
-  /// `first_col`: of the padded mosaic, under the frame's first in the first lane.
-  static Sums SumUp(const Detail& frame, const Detail& mosaic, int down, int first_col) {
-    const int rows = frame.off.rows(), cols = frame.off.cols();
-    Sums sums;
-    for (int r = std::max(0, -down); r < std::min(rows, rows - down); ++r) {
-      const float *f = frame.off.row(r), *fk = frame.known.row(r);
-      const float *m = mosaic.off.row(r + down) + first_col,
-                  *mk = mosaic.known.row(r + down) + first_col;
-      Lanes fm = Lanes::Zero(), ff = fm, mm = fm, common = fm;
-      for (int c = 0; c < cols; ++c) {
-        if (fk[c] == 0) {
-          continue;  // 0 in all
-        }
-        const Lanes grey = Eigen::Map<const Lanes>(m + c), known = Eigen::Map<const Lanes>(mk + c);
-        fm += f[c] * grey;
-        ff += f[c] * f[c] * known;
-        mm += grey * grey;
-        common += known;
-      }
-      sums.fm += fm.cast<double>();
-      sums.ff += ff.cast<double>();
-      sums.mm += mm.cast<double>();
-      sums.common += common.cast<double>();
-    }
-    return sums;
-  }
-
-  CellShift middle_;
-  int reach_;
-  Grid<double> of_;
-};
 
 /// Vertex of the parabola through the peak and the values beside it, in cells.
 double Vertex(double before, double peak, double after) {
@@ -267,16 +164,16 @@ SidewaysRegistration::Shift SidewaysRegistration::Add(const RangeMap& range, con
   CellShift whole;
   Eigen::Vector2d follow_m = Eigen::Vector2d::Zero();
   if (!first) {
-    Detail frame, mosaic;
+    GreyDetail frame, mosaic;
     SideBySide({[&] { frame = DetailOf(seen); }, [&] { mosaic = DetailOf(grey_); }});
     const int reach = static_cast<int>(std::ceil(kFarthest_m / (2 * geometry_.cell_m)));
     const CellShift coarse =
-        Correlations(Coarser(frame), Coarser(mosaic), {}, reach, kLeastCommon_cells / 4)
+        ShiftCorrelations(Coarser(frame), Coarser(mosaic), {}, reach, kLeastCommon_cells / 4)
             .Best(reach)
             .value_or(CellShift{});
     // A cell each way is asked, and beside it what the parabolas need.
-    const Correlations fine(frame, mosaic, {2 * coarse.rows, 2 * coarse.cols}, 2,
-                            kLeastCommon_cells);
+    const ShiftCorrelations fine(frame, mosaic, {2 * coarse.rows, 2 * coarse.cols}, 2,
+                                 kLeastCommon_cells);
     const std::optional<CellShift> peak = fine.Best(1);
     if (peak && fine.At(*peak) >= kLeastCorrelation) {
       const auto at = [&](int dr, int dc) { return fine.At({peak->rows + dr, peak->cols + dc}); };
