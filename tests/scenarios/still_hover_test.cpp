@@ -33,8 +33,7 @@ class Watcher {
     map_ = snapshot.terrain->applied;
     const std::vector<LandingSite>& sites = map_->selection.sites;
     const std::string best = sites.empty() ? "none" : sites.front().letter;
-    const bool was_listed = !best_.empty() && best_ != "none";
-    unrest.best_changes += was_listed && best != best_ ? 1 : 0;
+    unrest.best_changes += !best_.empty() && best != best_ ? 1 : 0;
     best_ = best;
     for (const LandingSite& site : sites) {
       unrest.letters.insert(site.letter);

@@ -15,7 +15,6 @@ namespace palace {
 namespace {
 
 constexpr float kGradientNoise = 0.30F;  // of e's variance, in g^2
-constexpr float kSampled2 = 0.02F;       // px^2: two samplings of an edge err so
 constexpr float kAstray2 = 0.04F;        // px^2: a place's pixels scatter so about its one height
 constexpr int kSmallest_px = 64;
 constexpr int kOther_rows = 8;  // to the pixels whose gradients are asked beside
@@ -84,7 +83,7 @@ void FineRelief::AddRows(const RangeMap& range, const ImageU8& left, const LaidO
       const float per_pixel_m = down * depth_m / d;  // k
       const float s2 = noise2[std::min(x / LaidOver::kPatch_px, laid.noise2.width() - 1)];
       const float g = Gradient(grey + x), c = Gradient(other + x), e = residual[x];
-      const float weight = 1 / (per_pixel_m * per_pixel_m * (s2 + kSampled2 * g * g));
+      const float weight = 1 / (per_pixel_m * per_pixel_m * s2);
       const float net = (g * g - kGradientNoise * s2) * weight;
       const float answer = -e * g * weight * per_pixel_m;
       using P = FinePlace;

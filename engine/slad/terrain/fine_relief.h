@@ -8,14 +8,12 @@
 // picture is laid over the left one (laid_over.h), each pixel tells, g the horizontal gradient of
 // the left picture as it is smoothed there,
 //
-//   e = -g (d - d0) + noise of variance n^2 = s^2 + 0.14^2 g^2
+//   e = -g (d - d0) + noise of variance s^2
 //
-// of which s is the pictures', and 0.14 px what two samplings of one edge differ by: no pixel knows
-// a disparity better, however hard the edge. With h0 the height of its point at d0 and k = dh/dd,
-// over all pixels of a cell and all frames
+// and with h0 the height of its point at d0, k = dh/dd, over all pixels of a cell and all frames
 //
-//   A = sum (g^2 - 0.30 s^2) / (k n)^2,   J = sum (h0 (g^2 - 0.30 s^2) / k^2 - e g / k) / n^2
-//   h = J / A,   sigma^2 = G / A^2,       G = sum g^2 / (k n)^2
+//   A = sum (g^2 - 0.30 s^2) / (k s)^2,   J = sum (h0 (g^2 - 0.30 s^2) / k^2 - e g / k) / s^2
+//   h = J / A,   sigma^2 = G / A^2,       G = sum g^2 / (k s)^2
 //
 // if noise is new in every frame; what frames repeat of it is measured, and G in what Sums() tells
 // has it (repeated_noise.h). 0.30 s^2 is what noise adds to g^2 (as in stereo/subpixel.h). A is

@@ -26,7 +26,7 @@ constexpr double kGradient_px = 3;     // width that a five-point derivative fee
 constexpr double kTallest_m = 1;
 /// What stands out does so until it falls below: of the fifty frames that a map remembers one is
 /// new, and a bump on the threshold would come and go.
-constexpr double kStillStandsOut_sigmas = 4;
+constexpr double kStillStandsOut_sigmas = 3.5;
 /// Squares that are looked at, the narrowest last: times the side, and how far their frame reaches.
 struct Scale {
   int sides, ring_to;

@@ -17,7 +17,7 @@
 // Where a place stands out by 4.5 of these sigmas, or a square twice or four times as wide does
 // (its noise is small: what the worst textures repeat over stereo's window is added to it), the top
 // of the cells under its square is raised (lowered, for a hole) to what a thing would be that shows
-// as much; from map to map it stays so until it falls below 4 sigmas. Seen aslant, a thing hides
+// as much; from map to map it stays so until it falls below 3.5 sigmas. Seen aslant, a thing hides
 // the ground behind it, and what of it is laid there is read from there: the ground between the
 // cell and the camera is raised to the rays that saw it, until these have risen by what the thing
 // stands off the ground that it was laid on (R / A of fine_relief.h: all of its height where stereo

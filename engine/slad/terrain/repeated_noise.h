@@ -6,7 +6,7 @@
 // drift of half a pixel undoes it, and no model says how much of it a texture has. So it is
 // measured: a height answers to the gradients g of its own pixels, noise to any. With the gradients
 // c of pixels 8 rows off, the residuals e of a place are asked as they are for its height
-// (fine_relief.h; sums over its pixels and all frames, w = 1 / (k n)^2):
+// (fine_relief.h; sums over its pixels and all frames, w = 1 / (k s)^2):
 //
 //   R = -sum e g k w,  answer = -sum e c k w - (C / A) R,  C = sum g c w
 //   variance of the answer = sum c^2 w - 2 C^2 / A + (C / A)^2 G
