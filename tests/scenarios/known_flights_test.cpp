@@ -37,8 +37,8 @@ void PrintTo(const KnownFlight& flight, std::ostream* out) {
 }
 
 constexpr KnownFlight kKnownFlights[] = {
-    {"runway", 101, 0, MissionState::kLanded, 0xd3a022f5334a986d},
-    {"slope", 7, 3, MissionState::kDescending, 0x8ac91e0d45904488},
+    {"runway", 101, 0, MissionState::kLanded, 0x1eb77dd34d975dbd},
+    {"slope", 7, 3, MissionState::kDescending, 0x5a5b1f89de7eaaab},
 };
 constexpr double kLimit_s = 120;
 

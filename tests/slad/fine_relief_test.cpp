@@ -153,7 +153,10 @@ Grid<FinePlace> PlainSums(const testing::TexturedPair& pair, const PlaneCorrecti
       of[FinePlace::kOtherGross] += c * c * w;
       of[FinePlace::kOther] -= e * c * k * w;
       of[FinePlace::kShared] += g * c * w;
-      of[FinePlace::kEnergy] += e * e / (s2 + 0.04 * g * g);
+      const auto grey = [&](int dx) { return static_cast<double>(laid.left.at(x + dx, y)); };
+      const double h = (grey(-1) - 2 * grey(0) + grey(1)) / 2, q = 0.04 * g * g + 0.12 * h * h;
+      of[FinePlace::kEnergy] += e * e / (s2 + q);
+      of[FinePlace::kSampled] += q / (s2 + q);
       of[FinePlace::kPixels] += 1;
     }
   }
@@ -194,7 +197,7 @@ TEST(FineRelief, ItsStripesSumToWhatOnePlainLoopSums) {
   EXPECT_GT(same, 0.98 * seen) << "of the rest a pixel lies on a border";
   EXPECT_EQ(all[FinePlace::kPixels], all_plain[FinePlace::kPixels]);
   for (const auto k : {FinePlace::kNet, FinePlace::kGross, FinePlace::kHeight,
-                       FinePlace::kOtherGross, FinePlace::kEnergy}) {
+                       FinePlace::kOtherGross, FinePlace::kEnergy, FinePlace::kSampled}) {
     EXPECT_NEAR(all[k] / all_plain[k], 1, 1e-3) << k;
   }
 }

@@ -16,6 +16,7 @@ namespace {
 
 constexpr float kGradientNoise = 0.30F;  // of e's variance, in g^2
 constexpr float kAstray2 = 0.04F;        // px^2: a place's pixels scatter so about its one height
+constexpr float kSpeck2 = 0.12F;         // of the square of h
 constexpr int kSmallest_px = 64;
 constexpr int kOther_rows = 8;  // to the pixels whose gradients are asked beside
 constexpr int kStripes = 4;     // summed one after the other
@@ -23,6 +24,12 @@ constexpr int kStripes = 4;     // summed one after the other
 /// Grey a pixel, along the row.
 float Gradient(const float* grey) {
   return (grey[-2] - grey[2] + 8 * (grey[1] - grey[-1])) * (1 / 12.0F);
+}
+
+/// q: what sampling makes of the pictures there, of the gradient along the row, grey^2.
+float Sampled2(const float* grey, float gradient) {
+  const float bend = (grey[-1] + grey[1]) / 2 - grey[0];  // h
+  return kAstray2 * gradient * gradient + kSpeck2 * bend * bend;
 }
 
 }  // namespace
@@ -98,7 +105,9 @@ void FineRelief::AddRows(const RangeMap& range, const ImageU8& left, const LaidO
       of[P::kOtherGross] += c * c * weight;
       of[P::kOther] -= e * c * weight * per_pixel_m;
       of[P::kShared] += g * c * weight;
-      of[P::kEnergy] += e * e / (s2 + kAstray2 * g * g);
+      const float sampled2 = Sampled2(grey + x, g);
+      of[P::kEnergy] += e * e / (s2 + sampled2);
+      of[P::kSampled] += sampled2 / (s2 + sampled2);
       of[P::kPixels] += 1;
     }
   }

@@ -40,7 +40,8 @@ struct FinePlace {
     kOtherGross,  ///< sum c^2 w, 1/m^2
     kOther,       ///< -sum e c k w, 1/m
     kShared,      ///< C, 1/m^2
-    kEnergy,      ///< sum e^2 / (s^2 + 0.2^2 g^2)
+    kEnergy,      ///< sum e^2 / (s^2 + q), q of unexplained.h
+    kSampled,     ///< sum q / (s^2 + q)
     kPixels,
     kCount
   };

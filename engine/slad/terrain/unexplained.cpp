@@ -26,7 +26,9 @@ GridF Unexplained(const Grid<FinePlace>& places) {
       const float gross = of[P::kGross], off = of[P::kOff], pixels = of[P::kPixels];
       const float by_height = gross > 0 ? off * off / gross : 0.0F;
       const float left_over = (of[P::kEnergy] - by_height) / pixels;  // U
-      unexplained.cells()[i] = (left_over - 1) / std::sqrt(1 / pixels + kRepeated2);
+      const float sampled = of[P::kSampled] / pixels;                 // S
+      unexplained.cells()[i] =
+          (left_over - 1) / std::sqrt(1 / pixels + kRepeated2 + sampled * sampled);
     }
   }
   return unexplained;
