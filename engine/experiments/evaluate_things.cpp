@@ -1,5 +1,6 @@
 #include "engine/experiments/evaluate_things.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -23,6 +24,7 @@ constexpr double kWellInView_m = 1;
 struct ThingsOptions {
   std::vector<double> heights_m = {8, 15, 20, 30};
   double size = 1;
+  std::vector<std::string> only{};  ///< kinds by name; empty: all
   std::string pictures{};
   std::vector<std::string> set{};
 
@@ -32,12 +34,27 @@ struct ThingsOptions {
       text += " " + CsvNumber(height_m);
     }
     text += " m, sizes times " + CsvNumber(size);
+    text += only.empty() ? "" : ", only " + Joined(only);
     for (const std::string& assignment : set) {
       text += ", " + assignment;
     }
     return text;
   }
+  bool Asks(ThingKind kind) const {
+    return only.empty() || std::find(only.begin(), only.end(), NameOf(kind)) != only.end();
+  }
 };
+
+/// What is wrong with a kind's name, or nothing.
+std::string CheckKind(const std::string& name) {
+  std::vector<std::string> known;
+  for (const ThingKind kind : kThingKinds) {
+    known.emplace_back(NameOf(kind));
+  }
+  return std::find(known.begin(), known.end(), name) != known.end()
+             ? std::string()
+             : "no kind is called \"" + name + "\"; known: " + Joined(known);
+}
 
 /// What became of the things of one field, or of the footprints of bare ground.
 struct Tally {
@@ -119,6 +136,9 @@ Result<std::vector<TrialRow>> RunTrial(const ThingsOptions& options, std::uint64
   }
   std::vector<TrialRow> rows;
   for (const ThingKind kind : kThingKinds) {
+    if (!options.Asks(kind)) {
+      continue;
+    }
     const ThingField field = MakeThingField(kind, options.size, seed);
     for (const double height_m : options.heights_m) {
       ViewPlan plan = DrawViewPlan(NameOf(kind), seed);
@@ -211,6 +231,9 @@ Experiment ThingsExperiment() {
     verb.add_option("--size", options->size, "Times the things' sizes")
         ->check(FiniteRange(0.3, 3.0))
         ->capture_default_str();
+    verb.add_option("--kind", options->only,
+                    "Only this kind; may be given again. none: bare ground. Default: all")
+        ->check(CheckKind);
     verb.add_option("--pictures", options->pictures, "Keep the drawn pairs in this folder");
     verb.add_option("--set", options->set, "One setting, e.g. slad.max_slope_deg=8");
   };

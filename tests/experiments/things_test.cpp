@@ -1,9 +1,13 @@
 // Fields of things, and pictures that are kept: that the field holds what it says it holds.
+#include <gmock/gmock.h>
+
 #include <cmath>
 #include <fstream>
 
+#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
+#include "engine/experiments/evaluate_things.h"
 #include "engine/experiments/kept_pictures.h"
 #include "engine/experiments/thing_field.h"
 #include "engine/world/ground_truth.h"
@@ -51,6 +55,21 @@ TEST(ThingField, BareGroundHoldsNothing) {
   const ThingField field = MakeThingField(ThingKind::kNone, 1, 3);
   EXPECT_TRUE(field.places_m.empty());
   EXPECT_TRUE(field.world.solids.empty());
+}
+
+TEST(Things, AKindIsChosenByItsNameAndToldWithTheResults) {
+  const Experiment things = ThingsExperiment();
+  CLI::App verb;
+  things.add_options(verb);
+  const std::string of_all = things.setup();
+  verb.parse("--kind rock --kind none");
+  EXPECT_EQ(things.setup(), of_all + ", only rock, none");
+  try {
+    verb.parse("--kind boulder");
+    FAIL() << "there is no such kind";
+  } catch (const CLI::ValidationError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("no kind is called \"boulder\"; known: none, "));
+  }
 }
 
 TEST(KeptPictures, AreDrawnOnceAndOnlyOfTheirSize) {
