@@ -1,14 +1,12 @@
 #include "gui/widgets/map/camera_overlay.h"
 
 #include <algorithm>
-#include <optional>
-#include <span>
+#include <string>
 #include <vector>
 
 #include "engine/model/ground_class.h"
 #include "gui/widgets/map/cell_hatch.h"
 #include "gui/widgets/map/contour.h"
-#include "gui/widgets/map/flag_marks.h"
 #include "gui/widgets/map/letter_places.h"
 
 namespace palace {
@@ -56,7 +54,6 @@ void DrawVerdict(UiFrame& ui, const Rect& image, std::shared_ptr<const ImageU8> 
 namespace {
 
 // Items on a picture: a letter, the ring of the best or selected site, of where it is to land.
-constexpr const char *kMark = "site_mark", *kRing = "ring", *kLandingRing = "landing_ring";
 
 /// A site that is not the selected one. Returns where its letter stands.
 LetterPlace DrawOther(UiFrame& ui, const SiteOverlay& overlay, const LandingSite& site, ImVec2 at) {
@@ -69,7 +66,7 @@ LetterPlace DrawOther(UiFrame& ui, const SiteOverlay& overlay, const LandingSite
   DrawLetterDisc(ui, at, site.letter, look);
   const float r = ui.style.Px(look.radius);
   const float half = LetterHalfWidth(ui.style, site.letter, look.radius);
-  ui.items.Add(kMark, {at.x - half, at.y - r, 2 * half, 2 * r}, true, site.letter);
+  ui.items.Add(kSiteMark, {at.x - half, at.y - r, 2 * half, 2 * r}, true, site.letter);
   return {site.id, at, {half, r}};
 }
 
@@ -122,14 +119,13 @@ void DrawRingLetter(UiFrame& ui, const PictureView& view, const SiteOverlay& ove
   const ImVec2 half = LetterPlateHalf(s, site.letter);
   const Rect& r = view.rect;
   const float gap = s.Px(4), beside = radius * 0.72f + s.Px(10);
-  const ImVec2 plate =
-      CornerOfRing({site.id, at, half}, {beside, beside}, others,
-                   {r.x + gap, r.y + gap, r.w - 2 * gap, r.h - 2 * gap});
+  const ImVec2 plate = CornerOfRing({site.id, at, half}, {beside, beside}, others,
+                                    {r.x + gap, r.y + gap, r.w - 2 * gap, r.h - 2 * gap});
   if (overlay.mission != nullptr) {
     OfferLetter(ui, "picture", plate, site, *overlay.mission);
   }
   LetterPlate(ui, plate, site.letter, true);
-  ui.items.Add(kMark, {plate.x - half.x, plate.y - half.y, 2 * half.x, 2 * half.y}, true,
+  ui.items.Add(kSiteMark, {plate.x - half.x, plate.y - half.y, 2 * half.x, 2 * half.y}, true,
                site.letter);
 }
 
@@ -191,7 +187,7 @@ void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay)
     const LandingSite& site = *overlay.selected;
     const RingKind kind = overlay.commanded ? RingKind::kCommanded : RingKind::kProposed;
     const auto at = view.ScreenFromPoint(site.p_WS);
-    if (DrawSiteRing(ui, view, site, kind, kRing) && view.rect.Contains(*at)) {
+    if (DrawSiteRing(ui, view, site, kind, kSiteRing) && view.rect.Contains(*at)) {
       const float radius = static_cast<float>(site.clear_radius_m) * view.PixelsPerMetre(site.p_WS);
       DrawRingLetter(ui, view, overlay, *at, radius, letters);
     }
@@ -220,155 +216,6 @@ void DrawTracker(UiFrame& ui, const PictureView& view, const TrackerStatus& trac
                      static_cast<float>(tracker.window_side_px) * view.ScalePx());
   }
   dl->PopClipRect();
-}
-
-namespace {
-
-enum class Hidden { kLetters, kLettersAndRings };
-
-constexpr std::size_t kCorners = 4;
-
-/// A plate in that corner; above what stands in the lower ones: scale bar and "Depth" at the left,
-/// a fact at the right.
-Rect PlateIn(const Style& s, const Rect& image, std::size_t corner, ImVec2 size) {
-  const float edge = s.Px(8);
-  const float right = image.right() - edge - size.x;
-  const Rect places[kCorners] = {
-      {image.x + edge, image.y + edge, size.x, size.y},
-      {image.x + edge, image.bottom() - s.Px(84) - size.y, size.x, size.y},
-      {right, image.bottom() - s.Px(42) - size.y, size.x, size.y},
-      {right, image.y + edge + s.Px(28), size.x, size.y}};
-  return places[corner];
-}
-
-bool Hides(const UiFrame& ui, const Rect& plate, Hidden none_of) {
-  return std::any_of(ui.items.items().begin(), ui.items.items().end(), [&](const Item& item) {
-    const Rect& r = item.rect;
-    const bool ring = item.name == kRing || item.name == kLandingRing;
-    const bool stays = item.name == kMark || item.name == kTrackLegend ||
-                       (ring && none_of == Hidden::kLettersAndRings);
-    return stays && r.x < plate.right() && plate.x < r.right() && r.y < plate.bottom() &&
-           plate.y < r.bottom();
-  });
-}
-
-constexpr float kSwatch = 14;
-
-struct LegendEntry {
-  const char* words;
-  void (*draw)(const Style&, const Rect& swatch);
-};
-
-void SafeSwatch(const Style& s, const Rect& swatch) {
-  StrokeRect(Canvas(), swatch, picture::kSafe, s.Fine(2));
-}
-
-void OverSwatch(const Style& s, const Rect& swatch) {
-  FillRect(Canvas(), swatch, WithAlpha(Rgb(0xF5963C), 0.25f));
-  Hatch(Canvas(), swatch, Rgb(0xF5963C), s.Fine(2), s.Fine(6));
-}
-
-void TooNearSwatch(const Style& s, const Rect& swatch) {
-  StrokeRect(Canvas(), swatch, picture::kTooNearLine, s.Fine(1));
-  Hatch(Canvas(), swatch, Rgb(0xF5963C), s.Fine(1), s.Fine(12));
-}
-
-float EntryWidth(const Style& s, const LegendEntry& entry) {
-  return s.Px(kSwatch + 6) + TextWidth(s.caption, entry.words);
-}
-
-/// One way to say it: entries beside or below each other, with the flags that occur under them.
-struct LegendLayout {
-  std::span<const LegendEntry> entries;
-  bool in_row = true;
-  bool with_flags = false;
-};
-
-/// Of the plate of the entries alone.
-ImVec2 SizeOf(const Style& s, const LegendLayout& layout) {
-  float sum = s.Px(8), widest = 0;
-  for (const LegendEntry& entry : layout.entries) {
-    const float width = EntryWidth(s, entry);
-    sum += width + s.Px(14);
-    widest = std::max(widest, width);
-  }
-  return layout.in_row ? ImVec2(sum, s.Px(26)) : ImVec2(widest + s.Px(20), s.Px(66));
-}
-
-/// With its flags.
-ImVec2 WholeSize(const Style& s, const LegendLayout& layout, float flags_w) {
-  const ImVec2 size = SizeOf(s, layout);
-  return layout.with_flags ? ImVec2(std::max(size.x, flags_w), size.y + s.Px(30)) : size;
-}
-
-/// Where it stood last, else the first that fits, and hides no letter and no ring; else, for near
-/// the ground a ring fills the picture, the same that hides no letter. A legend that moved with
-/// every letter that passes could not be read.
-std::optional<LegendPlace> PlaceLegend(const UiFrame& ui, const Rect& image,
-                                       std::span<const LegendLayout> layouts, float flags_w,
-                                       const LegendPlace& last) {
-  const Style& s = ui.style;
-  for (const Hidden none_of : {Hidden::kLettersAndRings, Hidden::kLetters}) {
-    const auto free = [&](std::size_t way, std::size_t corner) {
-      const ImVec2 size = WholeSize(s, layouts[way], flags_w);
-      return size.x + s.Px(16) <= image.w && !Hides(ui, PlateIn(s, image, corner, size), none_of);
-    };
-    if (last.ways == layouts.size() && free(last.way, last.corner)) {
-      return last;
-    }
-    for (std::size_t way = 0; way < layouts.size(); ++way) {
-      for (std::size_t corner = 0; corner < kCorners; ++corner) {
-        if (free(way, corner)) {
-          return LegendPlace{layouts.size(), way, corner};
-        }
-      }
-    }
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-void DrawVerdictLegend(UiFrame& ui, const Rect& image, unsigned flags, LegendPlace& place) {
-  const Style& s = ui.style;
-  const LegendEntry full[] = {{GroundClassWord(GroundClass::kLandable), SafeSwatch},
-                              {"Over a limit or unknown", OverSwatch},
-                              {GroundClassWord(GroundClass::kTooNear), TooNearSwatch}};
-  const LegendEntry brief[] = {{"Safe", SafeSwatch}, {"Over", OverSwatch}, {"Near", TooNearSwatch}};
-  const bool in_row = SizeOf(s, {full}).x + s.Px(16) <= image.w;
-  std::vector<LegendLayout> layouts;
-  for (const LegendLayout& layout : {LegendLayout{full, in_row}, LegendLayout{brief}}) {
-    if (flags != 0) {
-      layouts.push_back({layout.entries, layout.in_row, true});
-    }
-    layouts.push_back(layout);
-  }
-  const float flags_w = FlagLegendWidth(s, flags) + s.Px(12);
-  const auto placed = PlaceLegend(ui, image, layouts, flags_w, place);
-  place = placed.value_or(LegendPlace{});
-  if (!placed) {
-    return;
-  }
-  const LegendLayout& layout = layouts[placed->way];
-  const Rect rect = PlateIn(s, image, placed->corner, WholeSize(s, layout, flags_w));
-  ImDrawList* dl = Canvas();
-  const ImVec2 size = SizeOf(s, layout);
-  const Rect plate{rect.x, rect.y, size.x, size.y};
-  FillRect(dl, plate, picture::kPlate, s.Fine(3));
-  ui.items.Add("legend", rect, true, "");
-  ImVec2 at{plate.x + s.Px(8), plate.y + s.Px(13)};
-  for (const LegendEntry& entry : layout.entries) {
-    const float side = s.Px(kSwatch);
-    entry.draw(s, {at.x, at.y - side / 2, side, side});
-    DrawText(ui, s.caption, picture::kPlateText, at.x + side + s.Px(6), at.y, entry.words);
-    at = layout.in_row ? ImVec2{at.x + EntryWidth(s, entry) + s.Px(14), at.y}
-                       : ImVec2{at.x, at.y + s.Px(20)};
-  }
-  if (layout.with_flags) {
-    const Rect below{plate.x, plate.bottom() + s.Px(4), flags_w, s.Px(26)};
-    FillRect(dl, below, picture::kPlate, s.Fine(3));
-    DrawFlagLegend(ui, below.x - s.Px(6), below.centre().y, flags);
-  }
 }
 
 }  // namespace palace

@@ -14,6 +14,7 @@ namespace {
 constexpr float kSpacing = 8;  // units between marks
 constexpr float kHalf = 2.4f;  // units, of a mark
 constexpr float kGap = 14;     // units, between words of the legend
+constexpr float kLine = 20;    // units, between its lines
 
 struct FlagLook {
   TerrainFlag flag;
@@ -154,18 +155,26 @@ unsigned FlagsPresent(const Grid<std::uint8_t>& flags) {
   return present;
 }
 
-float FlagLegendWidth(const Style& style, unsigned flags) {
-  float width = 0;
+ImVec2 FlagLegendSize(const Style& style, unsigned flags, bool in_row) {
+  float sum = 0, widest = 0;
+  int lines = 0;
   for (const FlagLook& look : kLooks) {
     if ((flags & look.flag) != 0) {
-      width += style.Px(kGap + 12) + TextWidth(style.caption, look.word);
+      const float width = style.Px(kGap + 12) + TextWidth(style.caption, look.word);
+      sum += width;
+      widest = std::max(widest, width);
+      ++lines;
     }
   }
-  return width;
+  const float margin = style.Px(12);
+  return in_row ? ImVec2(sum + margin, style.Px(kLine + 6))
+                : ImVec2(widest + margin, style.Px(kLine * static_cast<float>(lines) + 6));
 }
 
-void DrawFlagLegend(UiFrame& ui, float x, float y, unsigned flags) {
+void DrawFlagLegend(UiFrame& ui, ImVec2 at, unsigned flags, bool in_row) {
   const Style& s = ui.style;
+  const float left = at.x - s.Px(6);
+  float x = left, y = at.y + s.Px(kLine / 2 + 3);
   for (const FlagLook& look : kLooks) {
     if ((flags & look.flag) == 0) {
       continue;
@@ -174,6 +183,10 @@ void DrawFlagLegend(UiFrame& ui, float x, float y, unsigned flags) {
     Mark(Canvas(), s, {x + s.Px(4), y}, look.flag);
     x += s.Px(12);
     x += DrawText(ui, s.caption, picture::kPlateText, x, y, look.word);
+    if (!in_row) {
+      x = left;
+      y += s.Px(kLine);
+    }
   }
 }
 

@@ -20,9 +20,9 @@ void DrawFlagsOnPicture(const Style& style, const PictureView& view, const GridG
 
 /// All bits that occur.
 unsigned FlagsPresent(const Grid<std::uint8_t>& flags);
-/// Width of the legend of these flags, shapes with words; 0 for none.
-float FlagLegendWidth(const Style& style, unsigned flags);
-/// The legend in one line from (x, y), y its middle.
-void DrawFlagLegend(UiFrame& ui, float x, float y, unsigned flags);
+/// Size of the legend of these flags, shapes with words, beside or below each other.
+ImVec2 FlagLegendSize(const Style& style, unsigned flags, bool in_row);
+/// The legend, `at` its upper left corner.
+void DrawFlagLegend(UiFrame& ui, ImVec2 at, unsigned flags, bool in_row);
 
 }  // namespace palace

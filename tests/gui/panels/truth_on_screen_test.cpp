@@ -174,6 +174,30 @@ TEST(Legend, StaysWhereItIsWhileItHidesNothingAndCoversNoButton) {
   }
 }
 
+/// The words of the flags stand somewhere, over no letter and not over the other plate.
+void ExpectFlagsNamed(const ItemRecord& items) {
+  const Item *words = items.Find("flag_legend"), *hatches = items.Find("legend");
+  ASSERT_NE(words, nullptr);
+  ASSERT_NE(hatches, nullptr);
+  EXPECT_FALSE(Touch(words->rect, hatches->rect));
+  for (const Item& item : items.items()) {
+    EXPECT_FALSE(item.name == "site_mark" && Touch(item.rect, words->rect)) << item.text;
+  }
+}
+
+// What a triangle or a cross means must be read where it is drawn: over dense ground letters stand
+// in most corners.
+TEST(Legend, NamesTheFlagsThatOccurBesideLetters) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  const FlyWindow free(1920, 1080, snap);
+  ExpectFlagsNamed(free.ui.items);
+  const Rect before = free.ui.items.Find("flag_legend")->rect;
+  MoveSiteTo({before.x + 12, before.centre().y + 8}, {1920, 1080}, 1, snap);
+  ExpectFlagsNamed(FlyWindow(1920, 1080, snap).ui.items);
+  // A small picture has no room for them in a row.
+  ExpectFlagsNamed(FlyWindow(1280, 720, fake::Snapshot(MissionState::kLanded)).ui.items);
+}
+
 // The letter of the leading site stands beside its ring's cross, where a neighbour's may be.
 TEST(Letters, OfTheLeadingSiteCoversNoNeighbour) {
   for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
