@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -110,24 +111,30 @@ void DrawEmpty(const EngineSnapshot& snap, const Rect& content, UiFrame& ui) {
   }
 }
 
-}  // namespace
+/// The rows as they are drawn: how high each is, and where the list lies.
+struct ListView {
+  Rect list;
+  float row = 0;
 
-void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, SiteListState& state,
-                       UiFrame& ui) {
-  const Style& s = ui.style;
+  /// The scroll that is possible for so many rows, of whole rows; returns what lies beyond the
+  /// list.
+  float Scroll(float to, std::size_t count, SiteListState& state) const {
+    const float beyond = std::max(0.0f, row * static_cast<float>(count) - list.h);
+    state.scroll = std::clamp(std::round(to / row) * row, 0.0f, beyond);
+    return beyond;
+  }
+};
+
+Rect DrawHead(const EngineSnapshot& snap, const FlyLayout& layout, const SiteListState& state,
+              std::size_t live, bool old, UiFrame& ui) {
   const TerrainDecision* known = SitesInForce(snap);
-  const MissionStatus& mission = snap.flight->mission;
-  Rows listed = RowsOf(known, mission);
-  std::vector<Row>& rows = listed.rows;
-  const std::size_t live = rows.size();
   const std::size_t found = known != nullptr ? known->selection.sites.size() : 0;
-  const bool old = live > 0 && IsMapOld(snap, ui.silent_s);
   const auto shown_rows = static_cast<std::size_t>(layout.site_rows);
   const bool preview = snap.terrain->preview != nullptr;
   const std::string found_words =
       std::to_string(found) + " found" +
       (live > shown_rows ? ", " + std::to_string(shown_rows) + " shown, wheel" : "");
-  const Rect content = DrawPanelFrame(
+  return DrawPanelFrame(
       ui, layout.sites, "Sites",
       {{old ? "Map " + AgeText(ShownMapAge(snap, ui.silent_s)) + " old" : "", 0, true, true},
        {preview ? "Applied, not the preview" : "", ui.style.palette.text1, true, false},
@@ -135,79 +142,82 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
         false},
        {found_words},
        {live > 0 && !layout.narrow && !old && !preview ? "Tab for next" : ""}});
-  const float row = s.Px(static_cast<float>(layout.site_row_units));
-  const Rect list{content.x, content.y + s.Px(layout.narrow ? 2 : 4), content.w,
-                  row * static_cast<float>(layout.site_rows)};
-  const Interaction pointer = Interact(ui, "panel/Sites", list, kPassive);
-  if (live == 0) {
-    DrawEmpty(snap, content, ui);
-    if (ui.highlighted_site != 0) {
-      ui.intents.push_back(UiAction(HighlightSite{}));
-    }
-    return;
-  }
-  const auto scroll_to = [&](float to, std::size_t count) {
-    const float beyond = std::max(0.0f, row * static_cast<float>(count) - list.h);
-    state.scroll = std::clamp(std::round(to / row) * row, 0.0f, beyond);
-    return beyond;
-  };
+}
+
+/// Puts the rows where they lay under the pointer, and the keyboard's row into sight. Returns what
+/// lies beyond the list.
+float ArrangeRows(const ListView& view, const Interaction& pointer, SiteListState& state,
+                  std::vector<Row>& rows, UiFrame& ui) {
   if (!pointer.hovered) {
     state.drawn.clear();
   }
   // The rows that are held are never fewer than were drawn, so that the scroll of the row under the
   // pointer is known before.
-  scroll_to(state.scroll - pointer.wheel * row, std::max(live, state.drawn.size()));
-  const float pointed = std::max(0.0f, pointer.pointer.y - list.y + state.scroll) / row;
+  view.Scroll(state.scroll - pointer.wheel * view.row, std::max(rows.size(), state.drawn.size()),
+              state);
+  const float pointed = std::max(0.0f, pointer.pointer.y - view.list.y + state.scroll) / view.row;
   state.order_held = KeepOrder(state.drawn, static_cast<std::size_t>(pointed), rows);
-  const std::size_t count = rows.size();
   state.drawn.clear();
   for (const Row& one : rows) {
     state.drawn.push_back({one.id, one.letter});
   }
-  for (std::size_t i = 0; i < count && ui.focus.shown() != state.followed; ++i) {
-    if (rows[i].site != nullptr &&
-        ui.focus.Has(SiteItemName(rows[i].letter))) {  // the keyboard's row comes into sight
-      const float top = row * static_cast<float>(i);
-      state.scroll = std::clamp(state.scroll, top + row - list.h, top);
+  for (std::size_t i = 0; i < rows.size() && ui.focus.shown() != state.followed; ++i) {
+    if (rows[i].site != nullptr && ui.focus.Has(SiteItemName(rows[i].letter))) {
+      const float top = view.row * static_cast<float>(i);
+      state.scroll = std::clamp(state.scroll, top + view.row - view.list.h, top);
     }
   }
   state.followed = ui.focus.shown();
-  const float beyond = scroll_to(state.scroll, count);
+  return view.Scroll(state.scroll, rows.size(), state);
+}
+
+/// The whole picture, of which each row shows its part.
+std::optional<PictureView> WholePicture(const EngineSnapshot& snap) {
   const auto camera = LeftCamera(snap);
-  std::optional<PictureView> view;
-  if (camera) {
-    view =
-        PictureView{*camera,
-                    snap.sensors->X_WC,
-                    {0, 0, static_cast<float>(camera->width), static_cast<float>(camera->height)}};
+  if (!camera) {
+    return std::nullopt;
   }
+  return PictureView{*camera,
+                     snap.sensors->X_WC,
+                     {0, 0, static_cast<float>(camera->width), static_cast<float>(camera->height)}};
+}
+
+/// Draws the rows in sight. Returns the site of the row under the pointer or the keyboard; 0: none.
+std::uint64_t DrawRows(const EngineSnapshot& snap, const ListView& view, const SiteListState& state,
+                       const Rows& listed, const SiteRowLook& all, UiFrame& ui) {
+  const Style& s = ui.style;
+  const MissionStatus& mission = snap.flight->mission;
+  const TerrainDecision* known = SitesInForce(snap);
   const LandingSite* best =
       known != nullptr ? mission.BestStanding(known->selection.sites) : nullptr;
-  const auto first = static_cast<std::size_t>(state.scroll / row);
-  const std::size_t last = std::min(count, first + static_cast<std::size_t>(layout.site_rows));
+  const std::optional<PictureView> picture = WholePicture(snap);
+  const auto first = static_cast<int>(state.scroll / view.row);
+  const auto end = first + static_cast<int>(std::round(view.list.h / view.row));
   std::uint64_t focused = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool in_sight = i >= first && i < last;
-    const Rect rect{list.x, list.y + row * (static_cast<float>(i) - static_cast<float>(first)),
-                    list.w, row};
-    if (rows[i].site == nullptr) {
+  for (int i = 0; i < static_cast<int>(listed.rows.size()); ++i) {
+    const Row& row = listed.rows[static_cast<std::size_t>(i)];
+    const bool in_sight = i >= first && i < end;
+    const Rect rect{view.list.x, view.list.y + view.row * static_cast<float>(i - first),
+                    view.list.w, view.row};
+    if (row.site == nullptr) {
       if (in_sight) {
         DrawText(ui, s.body, s.palette.text3, rect.x + s.Px(16), rect.centre().y,
-                 rows[i].letter + " is no longer listed");
+                 row.letter + " is no longer listed");
       }
       continue;
     }
-    const LandingSite& site = *rows[i].site;
+    const LandingSite& site = *row.site;
     if (!in_sight) {
       OfferHidden(ui, SiteItemName(site.letter));
       continue;
     }
     SiteRowLook look = LookOf(site, site.id == listed.unlisted, mission);
-    look.narrow = layout.site_row_units < 60;
-    look.old_map = old;
+    look.narrow = all.narrow;
+    look.old_map = all.old_map;
     look.standing = StandingOf(site, snap.session->settings.slad);
     look.standing_words = StandingWords(site, snap.session->settings.slad);
-    const SiteRowAnswer answer = DrawSiteRow(ui, rect, site, view, ui.textures.left_camera, look);
+    const SiteRowAnswer answer =
+        DrawSiteRow(ui, rect, site, picture, ui.textures.left_camera, look);
     focused = answer.focused ? site.id : focused;
     if (answer.clicked) {
       ui.intents.push_back(CommandAction(SelectSite{site.id}));
@@ -217,14 +227,47 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
       ui.items.Add("site/best", rect, look.enabled, site.letter);
     }
   }
-  if (focused != ui.highlighted_site) {
-    ui.intents.push_back(UiAction(HighlightSite{focused}));
-  }
+  return focused;
+}
+
+void DrawScrollBar(const ListView& view, const SiteListState& state, float beyond, UiFrame& ui) {
   if (beyond > 0) {
+    const Style& s = ui.style;
+    const Rect& list = view.list;
     const float share = list.h / (list.h + beyond);
     FillRect(Canvas(),
              {list.right() - s.Px(6), list.y + state.scroll * share, s.Px(4), list.h * share},
              s.palette.strong_line, s.Fine(2));
+  }
+}
+
+}  // namespace
+
+void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, SiteListState& state,
+                       UiFrame& ui) {
+  const Style& s = ui.style;
+  Rows listed = RowsOf(SitesInForce(snap), snap.flight->mission);
+  const bool none = listed.rows.empty();
+  const bool old = !none && IsMapOld(snap, ui.silent_s);
+  const Rect content = DrawHead(snap, layout, state, listed.rows.size(), old, ui);
+  const float row = s.Px(static_cast<float>(layout.site_row_units));
+  const ListView view{{content.x, content.y + s.Px(layout.narrow ? 2 : 4), content.w,
+                       row * static_cast<float>(layout.site_rows)},
+                      row};
+  const Interaction pointer = Interact(ui, "panel/Sites", view.list, kPassive);
+  std::uint64_t focused = 0;
+  if (none) {
+    DrawEmpty(snap, content, ui);
+  } else {
+    const float beyond = ArrangeRows(view, pointer, state, listed.rows, ui);
+    SiteRowLook all;
+    all.narrow = layout.site_row_units < 60;
+    all.old_map = old;
+    focused = DrawRows(snap, view, state, listed, all, ui);
+    DrawScrollBar(view, state, beyond, ui);
+  }
+  if (focused != ui.highlighted_site) {
+    ui.intents.push_back(UiAction(HighlightSite{focused}));
   }
 }
 

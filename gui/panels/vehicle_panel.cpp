@@ -83,95 +83,114 @@ bool IsLowOnEnergy(const MissionStatus& m) {
   });
 }
 
-/// The most important first: a narrow panel shows as many as have room.
-std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double silent_s) {
-  const auto by = [&](ChannelId channel) {
+/// What the vehicle told, as readouts of the age that each message has.
+struct Told {
+  const EngineSnapshot& snap;
+  bool narrow = false;
+  double silent_s = 0;
+
+  Readout By(ChannelId channel, std::string label, double value, int decimals,
+             std::string unit) const {
     const Arrival fresh = ArrivalOf(snap, channel, silent_s);
-    return [fresh](std::string label, double value, int decimals, std::string unit) {
-      return Readout{std::move(label), Fixed(value, decimals), std::move(unit), fresh.state,
-                     fresh.age_s};
-    };
-  };
-  const auto pose = by(ChannelId::kVehiclePose);
-  const auto status = by(ChannelId::kVehicleStatus);
+    return {std::move(label), Fixed(value, decimals), std::move(unit), fresh.state, fresh.age_s};
+  }
+  Readout ByPose(std::string label, double value, int decimals, std::string unit) const {
+    return By(ChannelId::kVehiclePose, std::move(label), value, decimals, std::move(unit));
+  }
+  Readout ByStatus(std::string label, double value, int decimals, std::string unit) const {
+    return By(ChannelId::kVehicleStatus, std::move(label), value, decimals, std::move(unit));
+  }
+  /// Without the vehicle's word the estimate coasts: no figure of any time.
+  bool Coasts() const {
+    return ArrivalOf(snap, ChannelId::kVehiclePose, silent_s).state == ChannelHealth::State::kStale;
+  }
+  Readout Estimated(std::string label, double value, int decimals, std::string unit) const {
+    return ByPose(std::move(label), Coasts() ? NAN : value, decimals, std::move(unit));
+  }
+
+  Readout Wind() const {
+    const double wind = snap.sensors->vehicle ? snap.sensors->vehicle->wind_speed_mps : NAN;
+    const double from = snap.sensors->vehicle ? snap.sensors->vehicle->wind_from_rad : NAN;
+    return ByStatus("Wind", wind, 1,
+                    WindHasDirection(wind) && std::isfinite(from) && !narrow
+                        ? "m/s, " + HeadingText(from)
+                        : "m/s");
+  }
+  /// Fuel or a battery: the vehicle does not say which.
+  Readout Energy() const {
+    const double energy =
+        snap.sensors->vehicle ? snap.sensors->vehicle->battery_or_fuel * 100 : NAN;
+    const double lasts_s = snap.flight->mission.energy.lasts_s;
+    return ByStatus(
+        "Energy", energy, 0,
+        std::isfinite(lasts_s) && !narrow ? "%, " + Fixed(lasts_s / 60, 0) + " min" : "%");
+  }
+};
+
+/// What was measured at touchdown; the estimate goes on drifting and means nothing more.
+std::vector<Readout> LandedReadouts(const Told& told) {
+  const MissionStatus& m = told.snap.flight->mission;
+  return {told.ByStatus(told.narrow ? "Off centre" : "Off centre, estimate",
+                        m.touchdown_miss_m.value_or(NAN), 2, "m"),
+          told.ByStatus(told.narrow ? "In truth" : "Off centre, in truth",
+                        m.touchdown_miss_true_m.value_or(NAN), 2, "m"),
+          told.Wind(), told.Energy()};
+}
+
+Readout DescentHeight(const Told& told) {
+  const ToldHeight height = HeightTold(told.snap);
+  const bool by_gps = height.by == ToldHeight::By::kGps;
+  if (height.by == ToldHeight::By::kLaser) {
+    return ByLaser(told.snap, height, told.narrow ? "Height, laser" : "Height above ground",
+                   told.narrow, told.silent_s);
+  }
+  return told.Estimated(!told.narrow ? "Height above site"
+                        : by_gps     ? "Height, GPS"
+                                     : "Height",
+                        height.height_m, 1, by_gps && !told.narrow ? "m, GPS" : "m");
+}
+
+/// The same figures, by the estimate in force, as the limits and the plots below.
+std::vector<Readout> DescentReadouts(const Told& told) {
+  const EngineSnapshot& snap = told.snap;
   const MissionStatus& m = snap.flight->mission;
-  const double wind = snap.sensors->vehicle ? snap.sensors->vehicle->wind_speed_mps : NAN;
-  const double wind_from = snap.sensors->vehicle ? snap.sensors->vehicle->wind_from_rad : NAN;
-  const std::string wind_unit = WindHasDirection(wind) && std::isfinite(wind_from) && !narrow
-                                    ? "m/s, " + HeadingText(wind_from)
-                                    : "m/s";
-  // Fuel or a battery: the vehicle does not say which.
-  const double energy = snap.sensors->vehicle ? snap.sensors->vehicle->battery_or_fuel * 100 : NAN;
-  const double lasts_s = snap.flight->mission.energy.lasts_s;
-  const std::string energy_unit =
-      std::isfinite(lasts_s) && !narrow ? "%, " + Fixed(lasts_s / 60, 0) + " min" : "%";
+  const bool narrow = told.narrow;
+  const bool settles = snap.sensors->vehicle && snap.sensors->vehicle->mode == VehicleMode::kSettle;
+  Readout to_go = told.Estimated(narrow ? "To go" : "Time to go", m.time_to_touchdown_s, 0,
+                                 settles && !narrow ? "s, settling" : "s");
+  to_go.value = told.Coasts() ? to_go.value : TimeToGo(snap);
+  const LimitRow* rate = FindLimit(m.limits, LimitId::kDescentRate);
+  const double rate_mps = rate != nullptr ? rate->value : NAN;
+  const bool climbs = rate_mps < -0.02;  // not by the noise of a hover
+  const char* word =
+      climbs ? (narrow ? "Climb" : "Climb rate") : (narrow ? "Descent" : "Descent rate");
+  return {DescentHeight(told),
+          to_go,
+          told.Estimated(word, climbs ? -rate_mps : rate_mps, 2, "m/s"),
+          told.Estimated(narrow ? "From centre" : "From site centre", m.distance_to_site_m, 2, "m"),
+          told.Wind(),
+          told.Energy()};
+}
+
+Readout HoverHeight(const Told& told) {
+  const ToldHeight height = HoverHeightTold(told.snap);
+  const bool narrow = told.narrow;
+  if (height.by == ToldHeight::By::kLaser) {
+    return ByLaser(told.snap, height, narrow ? "Above ground" : "Height above ground", narrow,
+                   told.silent_s);
+  }
+  Readout by_pose = told.ByPose(narrow ? "Above origin" : "Height above origin", height.height_m, 1,
+                                narrow ? "m" : "m, pose");
+  SayWhyNoLaser(height.no_laser, by_pose);
+  return by_pose;
+}
+
+std::vector<Readout> HoverReadouts(const Told& told) {
+  const EngineSnapshot& snap = told.snap;
+  const bool narrow = told.narrow;
   const double speed = snap.sensors->pose ? snap.sensors->pose->v_WB.head<2>().norm() : NAN;
-  if (m.state == MissionState::kLanded) {
-    // What was measured at touchdown; the estimate goes on drifting and means nothing more.
-    const double miss_m = m.touchdown_miss_m.value_or(NAN);
-    const double true_m = m.touchdown_miss_true_m.value_or(NAN);
-    return {status(narrow ? "Off centre" : "Off centre, estimate", miss_m, 2, "m"),
-            status(narrow ? "In truth" : "Off centre, in truth", true_m, 2, "m"),
-            status("Wind", wind, 1, wind_unit), status("Energy", energy, 0, energy_unit)};
-  }
-  // Without the vehicle's word the estimate coasts: no figure of any time.
-  const bool coasts =
-      ArrivalOf(snap, ChannelId::kVehiclePose, silent_s).state == ChannelHealth::State::kStale;
-  const auto estimated = [&](std::string label, double value, int decimals, std::string unit) {
-    return pose(std::move(label), coasts ? NAN : value, decimals, std::move(unit));
-  };
-  if (IsDescentView(snap)) {
-    const bool settles =
-        snap.sensors->vehicle && snap.sensors->vehicle->mode == VehicleMode::kSettle;
-    Readout to_go = estimated(narrow ? "To go" : "Time to go", m.time_to_touchdown_s, 0,
-                              settles && !narrow ? "s, settling" : "s");
-    to_go.value = coasts ? to_go.value : TimeToGo(snap);
-    // The same figures, by the estimate in force, as the limits and the plots below.
-    const LimitRow* rate = FindLimit(m.limits, LimitId::kDescentRate);
-    const double rate_mps = rate != nullptr ? rate->value : NAN;
-    const bool climbs = rate_mps < -0.02;  // not by the noise of a hover
-    const double down = climbs ? -rate_mps : rate_mps;
-    const double from_m = m.distance_to_site_m;
-    const Readout height = [&] {
-      const ToldHeight told = HeightTold(snap);
-      const bool by_gps = told.by == ToldHeight::By::kGps;
-      if (told.by == ToldHeight::By::kLaser) {
-        return ByLaser(snap, told, narrow ? "Height, laser" : "Height above ground", narrow,
-                       silent_s);
-      }
-      return estimated(!narrow  ? "Height above site"
-                       : by_gps ? "Height, GPS"
-                                : "Height",
-                       told.height_m, 1, by_gps && !narrow ? "m, GPS" : "m");
-    }();
-    if (narrow) {
-      return {height,
-              to_go,
-              estimated(climbs ? "Climb" : "Descent", down, 2, "m/s"),
-              estimated("From centre", from_m, 2, "m"),
-              status("Wind", wind, 1, wind_unit),
-              status("Energy", energy, 0, energy_unit)};
-    }
-    return {height,
-            to_go,
-            estimated(climbs ? "Climb rate" : "Descent rate", down, 2, "m/s"),
-            estimated("From site centre", from_m, 2, "m"),
-            status("Wind", wind, 1, wind_unit),
-            status("Energy", energy, 0, energy_unit)};
-  }
-  const Readout height = [&] {
-    const ToldHeight told = HoverHeightTold(snap);
-    if (told.by == ToldHeight::By::kLaser) {
-      return ByLaser(snap, told, narrow ? "Above ground" : "Height above ground", narrow, silent_s);
-    }
-    Readout by_pose = pose(narrow ? "Above origin" : "Height above origin", told.height_m, 1,
-                           narrow ? "m" : "m, pose");
-    SayWhyNoLaser(told.no_laser, by_pose);
-    return by_pose;
-  }();
-  const Readout blows = status("Wind", wind, 1, wind_unit);
-  const Readout over_ground = pose(narrow ? "Speed" : "Ground speed", speed, 1, "m/s");
-  Readout heading = pose("Heading", NAN, 0, "");
+  const Readout over_ground = told.ByPose(narrow ? "Speed" : "Ground speed", speed, 1, "m/s");
+  Readout heading = told.ByPose("Heading", NAN, 0, "");
   if (snap.sensors->pose) {
     heading.value = HeadingText(EulerFromRotation(snap.sensors->pose->X_WB.R).yaw_rad);
   }
@@ -179,24 +198,32 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
   // before the wind: gusts bob a hover, and then the wind is asked for.
   const double down_mps = VerticalSpeedTold(snap);
   const bool level = std::isnan(down_mps);
-  const Readout upwards = down_mps < 0
-                              ? pose(narrow ? "Climb" : "Climb rate", -down_mps, 1, "m/s")
-                              : pose(narrow ? "Descent" : "Descent rate", down_mps, 1, "m/s");
-  if (narrow) {
-    std::vector<Readout> some = {height,  level ? over_ground : upwards,
-                                 blows,   estimated("Error, 3σ", PositionError3s(snap), 2, "m"),
-                                 heading, status("Energy", energy, 0, energy_unit)};
-    if (IsLowOnEnergy(m)) {
-      std::swap(some[1], some[5]);  // of a hover the speed is worth less
-    }
-    return some;
+  const Readout upwards =
+      down_mps < 0 ? told.ByPose(narrow ? "Climb" : "Climb rate", -down_mps, 1, "m/s")
+                   : told.ByPose(narrow ? "Descent" : "Descent rate", down_mps, 1, "m/s");
+  if (!narrow) {
+    return {HoverHeight(told),
+            over_ground,
+            level ? heading : upwards,
+            told.Wind(),
+            told.Estimated("Position error", PositionError3s(snap), 2, "m, 3σ"),
+            told.Energy()};
   }
-  return {height,
-          over_ground,
-          level ? heading : upwards,
-          blows,
-          estimated("Position error", PositionError3s(snap), 2, "m, 3σ"),
-          status("Energy", energy, 0, energy_unit)};
+  std::vector<Readout> some = {
+      HoverHeight(told), level ? over_ground : upwards,
+      told.Wind(),       told.Estimated("Error, 3σ", PositionError3s(snap), 2, "m"),
+      heading,           told.Energy()};
+  if (IsLowOnEnergy(snap.flight->mission)) {
+    std::swap(some[1], some[5]);  // of a hover the speed is worth less
+  }
+  return some;
+}
+
+/// The most important first: a narrow panel shows as many as have room.
+std::vector<Readout> Readouts(const Told& told) {
+  return told.snap.flight->mission.state == MissionState::kLanded ? LandedReadouts(told)
+         : IsDescentView(told.snap)                               ? DescentReadouts(told)
+                                                                  : HoverReadouts(told);
 }
 
 }  // namespace
@@ -206,7 +233,7 @@ void DrawVehiclePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   DrawPanelFrame(ui, rect, "Vehicle", {{ModeWords(snap)}});
   // Two columns where three would not hold the longest label.
   const bool folded = narrow || rect.w < s.Px(380);
-  const std::vector<Readout> readouts = Readouts(snap, folded, ui.silent_s);
+  const std::vector<Readout> readouts = Readouts({snap, folded, ui.silent_s});
   const int columns = folded ? 2 : 3;
   const float pad = s.Px(12);
   const float width = (rect.w - pad) / static_cast<float>(columns);
