@@ -184,7 +184,7 @@ std::vector<Row> FusionRows() {
           .Within(1, 12)
           .Usually(1, 8),
       Row("slad.choice", "Choice", kChoice, &SiteChoice::ranking)
-          .Says("farthest: farthest from any hazard. cost: least cost.")
+          .Says("farthest: most room to any hazard, less what may hide there. cost: least cost.")
           .Choice({"farthest", "cost"}),
   };
 }

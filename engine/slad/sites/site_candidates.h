@@ -44,7 +44,7 @@ class SiteCandidates {
   /// Of the best cell left; nothing when none is.
   std::optional<double> BestScore() const;
   /// The best place left. In modern mode kFarthest takes the middle of the touching cells within
-  /// 3/4 of a cell of the best distance, unless the best is a known place.
+  /// 3/4 of a cell of the best score, unless the best is a known place.
   std::optional<ScoredCell> TakeBest();
 
  private:

@@ -27,13 +27,14 @@ struct SiteContext {
 
 /// Best first. A site is a cell that can bear the lander: its safe distance reaches the clear
 /// radius (lander radius + navigation error) and its footprint keeps every limit. kFarthest ranks
-/// by safe distance, then cost, then nearness to the middle of the picture; kCost by the smoothed
-/// cost. In modern mode kFarthest takes the middle of the touching cells within 3/4 of a cell of
-/// the best distance. Sites whose straight approach is blocked come after those where it is clear,
-/// and last those that no sector of approach is clear to. Sites lie at least site_spacing_m apart.
-/// Each has the reason for its rank (GiveReasons, explanation.h) and, in this order, a letter and
-/// an id. Pixels come from forward projection (erratum E17); NaN behind the camera. Of one map;
-/// what the maps of a flight together say is SiteRegistry's.
+/// by room (RankedRoom, site_candidates.h: the safe distance, less a clear radius for each tenfold
+/// by which more may hide there), then cost, then nearness to the middle of the picture; kCost by
+/// the smoothed cost. In modern mode kFarthest takes the middle of the touching cells within 3/4 of
+/// a cell of the best score. Sites whose straight approach is blocked come after those where it is
+/// clear, and last those that no sector of approach is clear to. Sites lie at least site_spacing_m
+/// apart. Each has the reason for its rank (GiveReasons, explanation.h) and, in this order, a
+/// letter and an id. Pixels come from forward projection (erratum E17); NaN behind the camera. Of
+/// one map; what the maps of a flight together say is SiteRegistry's.
 SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
                           const SladSettings& settings, const SiteContext& context);
 
