@@ -24,7 +24,9 @@ struct RejectedCells {
   int slope = 0;
   int roughness = 0;  ///< roughness or step
   int unknown = 0;
-  int flagged = 0;    ///< thin structure, no texture, motion, elevated surface
+  /// Thin structure, no texture, motion, an unexplained mark that rather is a thing than chance; an
+  /// elevated surface where those are avoided.
+  int flagged = 0;
   int doubtful = 0;   ///< inside every limit as measured, but with too small a chance: noise
   int footprint = 0;  ///< no hazard, but too near one, or over a limit under the lander
 };
@@ -34,9 +36,13 @@ struct HazardMaps {
   GridGeometry geometry;
   GridF slope_rad;  ///< angle of the fitted plane's normal to the up vector
   GridF slope_sigma_rad;
-  GridF roughness_m;  ///< |height - plane| (thesis) or its robust maximum over the footprint
+  /// |height - plane| (thesis), or the largest sqrt(off^2 - (4 sigma)^2) of the measured cells off
+  /// the cell's plane inside the footprint, 0 where noise explains them all.
+  GridF roughness_m;
   GridF roughness_sigma_m;
-  GridF step_m;           ///< largest height difference inside the footprint; NaN in thesis mode
+  /// Inside the footprint the largest step between neighbours, less what the plane rises from one
+  /// to the other and beyond 4 sigma of both; NaN in thesis mode.
+  GridF step_m;
   GridF cost;             ///< 0 best .. 1 forbidden
   GridF safe_distance_m;  ///< to the nearest cell that is not safe; 0 on such a cell
   /// Of a safe touchdown of the lander's gear at its worst heading, and that nothing over the

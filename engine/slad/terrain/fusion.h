@@ -2,8 +2,9 @@
 //
 // Each cell keeps a mean m, its variance P and a count. A frame's cell mean z with variance R is
 // first corrected by a plane (offset, north tilt, east tilt) fitted robustly to z - m, because the
-// noise of attitude and position moves a frame as a whole, then fused as (sideways it is moved
-// before, by its picture: sideways_registration.h)
+// noise of attitude and position moves a frame as a whole (the map takes 1/(1 + n) of that plane
+// after n frames, n at most 50, so that its own tilt becomes the mean of theirs; the frame takes
+// the rest), then fused as (sideways it is moved before, by its picture: sideways_registration.h)
 //
 //   1/P' = lambda/P + 1/R,   m' = P' (lambda m / P + z / R)
 //
@@ -14,17 +15,22 @@
 // with the relief inside the cell as its top. What frames disagree about by more than noise is
 // relief (frame_spread.h): it is added to the published top. So is what the pictures show that is
 // too narrow for stereo's window (narrow_things.h). None of them touches the measured ground.
+// The pictures do: where they know the ground better than stereo, both the measured ground and its
+// variance are what they tell, and the top moves along (fine_ground.h). Last, the variance of what
+// stereo repeats in every frame, which no fusing takes away, is added. All this is of the map that
+// is given out; m and P stay as fused.
 //
-// A cell that disagrees by more than the gate, three sigmas of
+// A cell disagrees beyond the gate
 //
-//   P + R + g^2 s^2,   s^2 = position sigma^2 + (attitude sigma * range)^2, of the frame's pose,
+//   (z - m)^2 > 9 (P + R + g^2 s^2) + (5 cm)^2,
+//   s^2 = position sigma^2 + (attitude sigma * range)^2, of the frame's pose.
 //
-// is not averaged: it counts in the spread only, and the second disagreement in a row on the same
-// side replaces the cell. A pose laid sideways by s misplaces ground of
-// gradient g (the frame's own, over two cells): an edge that wanders is no contradiction. It stays
-// out of R, because it says where an edge is, not whether. Unseen cells keep their height while
-// their variance and age grow; age is the data time since a frame last held the cell, agreeing or
-// not. Thesis mode fuses nothing: Add is ElevationFromRange.
+// It is then not averaged: it counts in the spread only, and the second disagreement in a row on
+// the same side replaces the cell. A pose laid sideways by s misplaces ground of gradient g (the
+// frame's own, over two cells): an edge that wanders is no contradiction. It stays out of R,
+// because it says where an edge is, not whether. Unseen cells keep their height while their
+// variance and age grow, and are forgotten above 0.25 m^2; age is the data time since a frame last
+// held the cell, agreeing or not. Thesis mode fuses nothing: Add is ElevationFromRange.
 #pragma once
 
 #include <cstdint>
