@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/core/random.h"
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/experiments/touchdown_field.h"
 #include "engine/report/statistics.h"
@@ -24,6 +25,7 @@ constexpr int kPlaces = 6;
 constexpr int kEnough = 1000;     // touchdowns in a bin that must be right
 constexpr double kWithin = 0.05;  // of the mean prediction
 constexpr double kCalledSafe = 0.99;
+constexpr int kMostReach_cells = 188;  // of the lander: a field of at most 400 cells a side
 constexpr double kBins[] = {0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0};
 
 template <typename... Values>
@@ -49,14 +51,19 @@ Result<std::vector<TrialRow>> RunTrial(const std::vector<std::string>& assignmen
   }
   const SladSettings& slad = settings->slad;
   // The footprint, its planes' window and the gear must lie on the field.
-  const double reach_m = std::max(slad.lander.base_size_m,
-                                  std::hypot(slad.lander.gear_length_m, slad.lander.gear_width_m)) /
-                         2;
-  const int rim = static_cast<int>(std::ceil(reach_m / slad.grid.cell_m)) + 1;
-  const int side = 2 * rim + 22;
-  if (side > 400) {
-    return InvalidError("slad.lander_base_size_m: more than 190 cells of slad.cell_m");
+  const double gear_m = std::hypot(slad.lander.gear_length_m, slad.lander.gear_width_m);
+  const double across_m = std::max(slad.lander.base_size_m, gear_m);
+  const double reach_cells = std::ceil(across_m / 2 / slad.grid.cell_m);
+  if (reach_cells > kMostReach_cells) {
+    return InvalidError((gear_m > slad.lander.base_size_m
+                             ? "the gear of slad.gear_length_m and slad.gear_width_m is"
+                             : "slad.lander_base_size_m is") +
+                        WithNumbers(" %.10g m across, at most %.10g m (%.0f cells of slad.cell_m)",
+                                    across_m, 2 * kMostReach_cells * slad.grid.cell_m,
+                                    2.0 * kMostReach_cells));
   }
+  const int rim = static_cast<int>(reach_cells) + 1;
+  const int side = 2 * rim + 22;
   const int kind = trial % static_cast<int>(kGroundKindNames.size());
   const TouchdownField field = MakeTouchdownField(static_cast<GroundKind>(kind), slad, side, seed);
   Slad judge;
