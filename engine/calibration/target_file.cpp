@@ -12,9 +12,9 @@
 
 #include <toml++/toml.h>
 
-#include "engine/camera/files/text_file.h"
-#include "engine/core/toml_text.h"
+#include "engine/core/files.h"
 #include "engine/core/text.h"
+#include "engine/core/toml_text.h"
 
 namespace palace {
 namespace {

@@ -1,12 +1,17 @@
-// Files written whole or not at all.
+// Files read whole, and files written whole or not at all.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
 #include "engine/core/result.h"
 
 namespace palace {
+
+/// The file's text. Refuses missing files, folders, pipes and devices, and files over `limit`
+/// bytes, naming the path.
+Result<std::string> ReadTextFile(const std::filesystem::path& path, std::size_t limit = 1 << 20);
 
 /// Writes through a neighbour file, so that a full disk leaves no half file under the name.
 Status WriteTextFile(const std::filesystem::path& path, const std::string& text);

@@ -11,7 +11,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "engine/camera/files/text_file.h"
 #include "engine/core/check.h"
 #include "engine/core/command_line.h"
 #include "engine/core/files.h"

@@ -2,7 +2,7 @@
 
 #include <system_error>
 
-#include "engine/camera/files/text_file.h"
+#include "engine/core/files.h"
 
 namespace palace {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "engine/camera/files/text_file.h"
-#include "engine/camera/files/toml_table.h"
+#include "engine/core/files.h"
 #include "engine/core/text.h"
+#include "engine/core/toml_table.h"
 #include "engine/faults/fault_text.h"
 
 namespace palace {

@@ -7,9 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
 #include <toml++/toml.h>
 
@@ -20,8 +18,6 @@
 
 namespace palace {
 namespace {
-
-constexpr std::uintmax_t kMaxFileBytes = 1 << 20;
 
 std::string At(const std::string& name, const toml::node& node) {
   return name + ":" + std::to_string(node.source().begin.line) + ": ";
@@ -150,21 +146,9 @@ Result<Settings> ParseSettings(std::string_view text, const std::string& name,
 }
 
 Result<Settings> LoadSettingsFile(const std::filesystem::path& path, const Settings& base) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    return UnavailableError("settings file " + path.string() +
-                            " does not exist or is not a file; give the path of a .toml file");
-  }
-  if (std::filesystem::file_size(path, error) > kMaxFileBytes) {
-    return InvalidError("settings file " + path.string() + " is larger than 1 MiB");
-  }
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) {
-    return UnavailableError("settings file " + path.string() + " cannot be read");
-  }
-  return ParseSettings(text.str(), path.string(), base);
+  const Result<std::string> text = ReadTextFile(path);
+  return text ? ParseSettings(*text, path.string(), base)
+              : Result<Settings>({text.error().code, "settings file " + text.error().message});
 }
 
 Result<Settings> ApplySettingText(const Settings& base, std::string_view assignment) {

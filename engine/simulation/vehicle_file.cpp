@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "engine/camera/files/text_file.h"
+#include "engine/core/files.h"
 #include "engine/core/check.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"

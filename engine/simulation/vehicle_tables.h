@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/camera/files/toml_table.h"
+#include "engine/core/toml_table.h"
 #include "engine/simulation/vehicle_description.h"
 
 namespace palace {

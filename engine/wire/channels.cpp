@@ -4,12 +4,11 @@
 #include "engine/wire/channels.h"
 
 #include <cstdint>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include <toml++/toml.h>
 
+#include "engine/core/files.h"
 #include "engine/core/toml_text.h"
 
 namespace palace {
@@ -131,14 +130,8 @@ Result<ChannelNames> ParseChannels(std::string_view text, const std::string& ori
 }
 
 Result<ChannelNames> LoadChannels(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
-    return UnavailableError(file.string() +
-                            ": cannot be read; give a channels file or leave the option out");
-  }
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return ParseChannels(text.str(), file.string());
+  const Result<std::string> text = ReadTextFile(file);
+  return text ? ParseChannels(*text, file.string()) : Result<ChannelNames>(text.error());
 }
 
 }  // namespace palace

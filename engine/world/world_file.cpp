@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/camera/files/text_file.h"
+#include "engine/core/files.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/world/scene_library.h"

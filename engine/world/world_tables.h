@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/camera/files/toml_table.h"
+#include "engine/core/toml_table.h"
 #include "engine/world/world.h"
 
 namespace palace {

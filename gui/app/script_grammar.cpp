@@ -3,9 +3,9 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
+#include "engine/core/files.h"
 #include "engine/core/text.h"
 #include "engine/faults/fault_text.h"
 #include "engine/simulation/vehicle_file.h"
@@ -261,14 +261,8 @@ Result<std::vector<ScriptLine>> ParseScript(std::string_view text, const std::st
 }
 
 Result<std::vector<ScriptLine>> LoadScript(const std::string& path) {
-  std::error_code none;
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file || std::filesystem::is_directory(path, none)) {
-    return UsageError("script " + path + " cannot be read; check the name");
-  }
-  return ParseScript(text.str(), path);
+  const Result<std::string> text = ReadTextFile(path);
+  return text ? ParseScript(*text, path) : UsageError("script " + text.error().message);
 }
 
 }  // namespace palace

@@ -10,7 +10,6 @@
 #include <opencv2/core.hpp>
 
 #include "engine/camera/cahvor.h"
-#include "engine/camera/files/text_file.h"
 #include "tests/camera/camera_file_texts.h"
 #include "tests/camera/reference_vectors.h"
 #include "tests/camera/sample_cameras.h"

@@ -1,4 +1,4 @@
-// Files are written whole or not at all.
+// Files are read whole, and written whole or not at all.
 #include "engine/core/files.h"
 
 #include <fstream>
@@ -33,6 +33,29 @@ TEST_F(Files, ATextReplacesTheOneBeforeAndLeavesNothingElse) {
   ASSERT_TRUE(WriteTextFile(path, second).ok());
   EXPECT_EQ(Text(path), second);
   EXPECT_EQ(std::distance(fs::directory_iterator(path.parent_path()), {}), 1);
+}
+
+TEST_F(Files, ATextIsReadToTheLastByteAndNoLongerOneThanTheLimit) {
+  ASSERT_TRUE(MakeFolder(folder_).ok());
+  const std::string text("two\0lines\r\n", 11);
+  ASSERT_TRUE(WriteTextFile(folder_ / "a.txt", text).ok());
+  const Result<std::string> read = ReadTextFile(folder_ / "a.txt", text.size());
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_EQ(*read, text);
+  const struct {
+    fs::path path;
+    ErrorCode code;
+    const char* said;
+  } rows[] = {{folder_ / "a.txt", ErrorCode::kInvalid, "a.txt: 11 bytes, larger than 10 bytes"},
+              {folder_, ErrorCode::kUnavailable, "is a folder"},
+              {folder_ / "b.txt", ErrorCode::kUnavailable, "b.txt: no such file"},
+              {"/dev/zero", ErrorCode::kUnavailable, "is no file on disk"}};
+  for (const auto& row : rows) {
+    const Result<std::string> refused = ReadTextFile(row.path, 10);
+    ASSERT_FALSE(refused.ok()) << row.path;
+    EXPECT_EQ(refused.error().code, row.code) << row.path;
+    EXPECT_NE(refused.error().message.find(row.said), std::string::npos) << refused.error().message;
+  }
 }
 
 TEST_F(Files, WhatCannotBeWrittenIsNamedAndKeepsItsOldText) {

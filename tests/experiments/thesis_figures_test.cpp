@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/camera/files/text_file.h"
+#include "engine/core/files.h"
 #include "tests/support/own_path.h"
 #include "tests/support/process.h"
 

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/camera/files/text_file.h"
 
 namespace palace {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "engine/camera/cahvor.h"
 #include "engine/camera/files/camera_file_formats.h"
-#include "engine/camera/files/text_file.h"
+#include "engine/core/files.h"
 
 namespace palace {
 namespace {

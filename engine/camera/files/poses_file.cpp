@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "engine/camera/files/keyed_text.h"
-#include "engine/camera/files/text_file.h"
-#include "engine/camera/files/toml_table.h"
+#include "engine/core/files.h"
 #include "engine/core/text.h"
+#include "engine/core/toml_table.h"
 #include "engine/core/units.h"
 
 namespace palace {

@@ -6,10 +6,10 @@
 
 #include "engine/camera/camera_pair.h"
 #include "engine/camera/files/camera_files.h"
-#include "engine/camera/files/text_file.h"
-#include "engine/camera/files/toml_table.h"
-#include "engine/core/toml_text.h"
+#include "engine/core/files.h"
 #include "engine/core/text.h"
+#include "engine/core/toml_table.h"
+#include "engine/core/toml_text.h"
 #include "engine/core/units.h"
 #include "engine/model/rig_limits.h"
 

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "engine/camera/files/keyed_text.h"
-#include "engine/camera/files/text_file.h"
 #include "engine/capture/euroc/euroc_frames.h"
+#include "engine/core/files.h"
 #include "engine/core/text.h"
 
 namespace palace {

@@ -1,4 +1,4 @@
-#include "engine/camera/files/toml_table.h"
+#include "engine/core/toml_table.h"
 
 #include <cmath>
 #include <cstdint>
