@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <sstream>
 
 #include <toml++/toml.h>
 
@@ -54,6 +55,16 @@ std::optional<double> ValueOfWord(const SettingInfo& info, std::string_view word
   return static_cast<double>(it - info.words.begin());
 }
 
+/// As it stands in the file, on one line and no longer than a reader needs to find it.
+std::string Written(const toml::node& node) {
+  constexpr std::size_t kMost = 40;
+  std::ostringstream out;
+  node.visit([&out](const auto& value) { out << value; });
+  std::string text = out.str();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.size() > kMost ? text.substr(0, kMost) + "..." : text;
+}
+
 Result<double> NumberOf(const SettingInfo& info, const toml::node& node) {
   if (const auto word = node.value_exact<std::string>()) {
     if (const auto value = ValueOfWord(info, *word)) {
@@ -63,25 +74,28 @@ Result<double> NumberOf(const SettingInfo& info, const toml::node& node) {
                         (info.words.empty() ? "a number" : "one of: " + Joined(info.words)));
   }
   if (!info.words.empty()) {
-    return InvalidError(info.name + " must be one of: " + Joined(info.words));
+    return InvalidError(info.name + " = " + Written(node) +
+                        " is not one of: " + Joined(info.words));
   }
   if (const auto number = node.value<double>(); number && node.is_number()) {
     return *number;
   }
-  return InvalidError(info.name + " must be a number");
+  return InvalidError(info.name + " = " + Written(node) + " is not a number");
 }
 
 Status SetUpVector(Settings& settings, const toml::node& node) {
   const toml::array* array = node.as_array();
   Eigen::Vector3d up = Eigen::Vector3d::Zero();
   if (array == nullptr || array->size() != 3) {
-    return InvalidError("slad.up_vector_ned must be three numbers, e.g. [0, 0, -1]");
+    return InvalidError("slad.up_vector_ned = " + Written(node) +
+                        " is not three numbers, e.g. [0, 0, -1]");
   }
   for (int i = 0; i < 3; ++i) {
     up[i] = array->get(static_cast<std::size_t>(i))->value<double>().value_or(NAN);
   }
   if (!up.allFinite() || up.norm() < 1e-9 || up.z() >= 0) {
-    return InvalidError("slad.up_vector_ned must be finite and point up (third number below 0)");
+    return InvalidError("slad.up_vector_ned = " + Written(node) +
+                        " is not finite or does not point up (third number below 0)");
   }
   up.normalize();
   const double tilt = std::atan2(std::hypot(up.x(), up.y()), -up.z());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/command_line.h"
 #include "engine/core/text.h"
 #include "engine/model/site_standing.h"
 #include "engine/runtime/settings_io.h"
@@ -38,9 +39,6 @@ Status CheckOptions(const Options& options) {
   }
   if (!pair && !options.poses.empty()) {
     return UsageError("--poses belongs to --left, --right and --rig");
-  }
-  if (options.cell_m && !(*options.cell_m >= 0.001 && *options.cell_m <= 1000)) {
-    return UsageError("--cell-m must lie between 0.001 and 1000 metres");
   }
   for (const std::string& text : options.explain) {
     if (const auto cell = ParseCell(text); !cell) {
@@ -149,7 +147,8 @@ void AddAnalyzeCommand(CLI::App& app, int& exit_code) {
                    "state_groundtruth_estimate0) instead: its pairs with its poses");
   verb->add_option("--elevation", options->elevation, "GeoTIFF elevation model instead of a pair");
   verb->add_option("--points", options->points, "xyz or ply cloud instead of a pair");
-  verb->add_option("--cell-m", options->cell_m, "cell size for --elevation and --points, metres");
+  verb->add_option("--cell-m", options->cell_m, "cell size for --elevation and --points, metres")
+      ->check(FiniteRange(0.001, 1000));
   verb->add_option("--settings", options->settings_file, "settings TOML");
   verb->add_option("--set", options->set, "one setting, e.g. slad.max_slope_deg=8; repeatable")
       ->take_all();

@@ -29,7 +29,7 @@ RigCamera CameraFromWire(const rig_camera_t& m) {
   return camera;
 }
 
-/// Every number of a rig, in one row: for comparing and for checking that all are finite.
+/// Every number of a rig, in one row.
 std::vector<double> Flatten(const StereoRig& rig) {
   std::vector<double> row = {rig.baseline_m,
                              rig.rectified ? 1.0 : 0.0,
@@ -53,6 +53,38 @@ std::vector<double> Flatten(const StereoRig& rig) {
   return row;
 }
 
+/// The first field with a number that is not finite; empty when all are.
+std::string NotFiniteField(const StereoRig& rig) {
+  const auto finite = [](const auto& numbers) {
+    return std::all_of(std::begin(numbers), std::end(numbers),
+                       [](double number) { return std::isfinite(number); });
+  };
+  const std::pair<const char*, double> numbers[] = {
+      {"baseline_m", rig.baseline_m}, {"tilt_rad", rig.tilt_rad}, {"rate_hz", rig.rate_hz}};
+  for (const auto& [field, number] : numbers) {
+    if (!std::isfinite(number)) {
+      return field;
+    }
+  }
+  if (!rig.position_body_m.allFinite()) {
+    return "position_body_m";
+  }
+  for (const RigCamera* camera : {&rig.left, &rig.right}) {
+    const std::string side = camera == &rig.left ? "left." : "right.";
+    const PinholeCamera& p = camera->pinhole;
+    if (!finite(std::array{p.fx_px, p.fy_px, p.cx_px, p.cy_px})) {
+      return side + "fx_px, fy_px, cx_px or cy_px";
+    }
+    if (!finite(camera->distortion)) {
+      return side + "distortion";
+    }
+    if (camera->model && !finite(NumbersOf(*camera->model))) {
+      return side + "cahvor or lens";
+    }
+  }
+  return {};
+}
+
 Result<StereoRig> RigBody(const camera_rig_t& m) {
   StereoRig rig;
   rig.left = CameraFromWire(m.left);
@@ -67,10 +99,8 @@ Result<StereoRig> RigBody(const camera_rig_t& m) {
   rig.tilt_rad = m.tilt_rad;
   rig.position_body_m = Unpack(m.position_body_m);
   rig.rate_hz = m.rate_hz;
-  for (const double number : Flatten(rig)) {
-    if (!std::isfinite(number)) {
-      return InvalidError("the rig holds a number that is not finite");
-    }
+  if (const std::string field = NotFiniteField(rig); !field.empty()) {
+    return InvalidError("the rig's " + field + " holds a number that is not finite");
   }
   if (std::string why = WhyNoRig(rig); !why.empty()) {
     return InvalidError(std::move(why));

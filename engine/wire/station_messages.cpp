@@ -1,3 +1,4 @@
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/wire/convert.h"
 #include "engine/wire/wire_fields.h"
@@ -112,14 +113,23 @@ Result<SiteProposal> DecodeProposal(const WireMessage& message) {
         {m.utime}, {m.map_utime}, IdFromWire(m.map_hash), IdFromWire(m.settings_hash), {}, {}};
     proposal.grid = {m.grid_rows, m.grid_cols, m.grid_cell_m, m.grid_north_min_m,
                      m.grid_east_min_m};
-    if (m.grid_rows < 0 || m.grid_cols < 0 || !std::isfinite(m.grid_cell_m) ||
-        !std::isfinite(m.grid_north_min_m) || !std::isfinite(m.grid_east_min_m)) {
-      return InvalidError("the grid of a proposal is none");
+    if (m.grid_rows < 0 || m.grid_cols < 0) {
+      return InvalidError(
+          WithNumbers("grid_rows = %.0f, grid_cols = %.0f of a proposal: neither may be negative",
+                      m.grid_rows, m.grid_cols));
+    }
+    if (!std::isfinite(m.grid_cell_m) || !std::isfinite(m.grid_north_min_m) ||
+        !std::isfinite(m.grid_east_min_m)) {
+      return InvalidError(
+          WithNumbers("grid_cell_m = %g, grid_north_min_m = %g, grid_east_min_m = %g of a "
+                      "proposal: each must be finite",
+                      m.grid_cell_m, m.grid_north_min_m, m.grid_east_min_m));
     }
     for (const site_t& site : m.sites) {
       proposal.selection.sites.push_back(SiteFromWire(site));
       if (!proposal.selection.sites.back().p_WS.allFinite()) {
-        return InvalidError("a proposed site's position is not finite");
+        return InvalidError("pos of site " + std::to_string(proposal.selection.sites.size()) +
+                            " of a proposal is not finite");
       }
     }
     proposal.selection.none_reason = m.none_reason;

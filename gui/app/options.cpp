@@ -171,8 +171,9 @@ Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
   if (!options.key.empty() && options.source != SourceChoice::kConnect) {
     return UsageError("--key is of --connect; leave it out here");
   }
-  if (options.ui_scale != 0 && (options.ui_scale < 0.75 || options.ui_scale > 2.5)) {
-    return UsageError("--ui-scale must lie between 0.75 and 2.5, or be 0");
+  if (options.ui_scale != 0 && !(options.ui_scale >= 0.75 && options.ui_scale <= 2.5)) {
+    return UsageError("--ui-scale is " + NumberText(options.ui_scale) +
+                      "; it must lie between 0.75 and 2.5, or be 0");
   }
   options.report = !no_record;
   // A replay, or pictures from disk, are on disk already.
