@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "engine/calibration/chessboard_extent.h"
+#include "engine/camera/grey_view.h"
 
 namespace palace {
 namespace {
@@ -101,8 +102,7 @@ void MakeRightHanded(std::vector<Eigen::Vector2d>& corners, int columns, int row
 
 Result<std::vector<Eigen::Vector2d>> FindChessboardCorners(const ImageU8& picture, int columns,
                                                            int rows) {
-  const cv::Mat grey(picture.height(), picture.width(), CV_8U,
-                     const_cast<std::uint8_t*>(picture.pixels().data()));
+  const cv::Mat grey = GreyView(picture);
   const cv::Size size(columns, rows);
   std::vector<cv::Point2f> found;
   try {

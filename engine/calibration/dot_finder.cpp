@@ -7,6 +7,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "engine/camera/grey_view.h"
+
 namespace palace {
 namespace {
 
@@ -244,8 +246,7 @@ Window WindowOf(const Dot& dot) {
 }  // namespace
 
 std::vector<Dot> FindDots(const ImageU8& picture, int window_px) {
-  const cv::Mat grey(picture.height(), picture.width(), CV_8U,
-                     const_cast<std::uint8_t*>(picture.pixels().data()));
+  const cv::Mat grey = GreyView(picture);
   cv::Mat labels, stats, centroids;
   const int count = cv::connectedComponentsWithStats(DarkPixels(grey, window_px), labels, stats,
                                                      centroids, 8, CV_32S);

@@ -11,6 +11,7 @@
 
 #include "engine/camera/alignment.h"
 #include "engine/camera/cahvor.h"
+#include "engine/camera/grey_view.h"
 #include "engine/model/rig_limits.h"
 
 namespace palace {
@@ -86,9 +87,7 @@ void ModelMaps(const CameraModel& raw, const CahvorModel& aligned, cv::Mat& x, c
 
 std::shared_ptr<const ImageU8> Resample(const ImageU8& raw, const cv::Mat& x, const cv::Mat& y) {
   auto out = std::make_shared<ImageU8>(x.cols, x.rows);
-  // OpenCV has no read-only view; remap does not write its source.
-  const cv::Mat source(raw.height(), raw.width(), CV_8UC1,
-                       const_cast<std::uint8_t*>(raw.pixels().data()));
+  const cv::Mat source = GreyView(raw);
   cv::Mat target(out->height(), out->width(), CV_8UC1, out->pixels().data());
   // Cubic: linear weights blur by an amount that depends on the fraction, which biases disparity.
   cv::remap(source, target, x, y, cv::INTER_CUBIC, cv::BORDER_CONSTANT, cv::Scalar(0));

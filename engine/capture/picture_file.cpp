@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "engine/camera/grey_view.h"
 #include "engine/core/files.h"
 
 namespace palace {
@@ -69,8 +70,7 @@ Result<ImageU8> ReadGreyPicture(const std::filesystem::path& path) {
 }
 
 Status WriteGreyPicture(const std::filesystem::path& path, const ImageU8& image) {
-  const cv::Mat view(image.height(), image.width(), CV_8UC1,
-                     const_cast<std::uint8_t*>(image.pixels().data()));
+  const cv::Mat view = GreyView(image);
   // OpenCV's own writer leaves what fits on a full disk, under the name of a whole picture.
   std::vector<std::uint8_t> bytes;
   try {

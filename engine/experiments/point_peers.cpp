@@ -5,6 +5,7 @@
 #include <opencv2/tracking.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "engine/camera/grey_view.h"
 #include "engine/core/check.h"
 #include "engine/experiments/point_methods.h"
 
@@ -13,11 +14,6 @@ namespace {
 
 constexpr int kBox_px = 41;
 constexpr int kEccReach_px = 40;
-
-cv::Mat View(const ImageU8& picture) {
-  return {picture.height(), picture.width(), CV_8U,
-          const_cast<std::uint8_t*>(picture.pixels().data())};
-}
 
 cv::Point2f PointOf(const Eigen::Vector2d& pixel) {
   return {static_cast<float>(pixel.x()), static_cast<float>(pixel.y())};
@@ -28,13 +24,13 @@ FollowPoint StartKlt(const ImageU8& first, const Eigen::Vector2d& pixel) {
     cv::Mat before;
     cv::Point2f at;
   };
-  auto memory = std::make_shared<Memory>(Memory{View(first).clone(), PointOf(pixel)});
+  auto memory = std::make_shared<Memory>(Memory{GreyView(first).clone(), PointOf(pixel)});
   return [memory](const ImageU8& picture, int) {
     std::vector<cv::Point2f> next;
     std::vector<unsigned char> status;
-    cv::calcOpticalFlowPyrLK(memory->before, View(picture), std::vector{memory->at}, next, status,
-                             cv::noArray(), cv::Size(21, 21), 3);
-    memory->before = View(picture).clone();
+    cv::calcOpticalFlowPyrLK(memory->before, GreyView(picture), std::vector{memory->at}, next,
+                             status, cv::noArray(), cv::Size(21, 21), 3);
+    memory->before = GreyView(picture).clone();
     memory->at = status[0] != 0 ? next[0] : memory->at;
     return PointReading{{double(memory->at.x), double(memory->at.y)}, status[0] != 0};
   };
@@ -49,7 +45,7 @@ FollowPoint StartBox(cv::Ptr<cv::Tracker> tracker, const ImageU8& first,
   };
   const auto colour = [](const ImageU8& picture) {
     cv::Mat bgr;
-    cv::cvtColor(View(picture), bgr, cv::COLOR_GRAY2BGR);
+    cv::cvtColor(GreyView(picture), bgr, cv::COLOR_GRAY2BGR);
     return bgr;
   };
   tracker->init(colour(first), box);
@@ -68,7 +64,7 @@ FollowPoint StartEcc(const ImageU8& first, const Eigen::Vector2d& pixel, double 
   const double half = kBox_px / 2;
   auto memory = std::make_shared<Memory>();
   memory->warp = {1, 0, pixel.x() - half, 0, 1, pixel.y() - half};
-  cv::getRectSubPix(View(first), cv::Size(kBox_px, kBox_px), PointOf(pixel), memory->wanted);
+  cv::getRectSubPix(GreyView(first), cv::Size(kBox_px, kBox_px), PointOf(pixel), memory->wanted);
   return [memory, half, min_coherence](const ImageU8& picture, int) {
     const auto middle = [half](const cv::Matx23d& warp) {
       const cv::Vec2d at = warp * cv::Vec3d(half, half, 1);
@@ -92,7 +88,7 @@ FollowPoint StartEcc(const ImageU8& first, const Eigen::Vector2d& pixel, double 
     const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 1e-4);
     try {
       reading.coherence =
-          std::max(0.0, cv::findTransformECC(memory->wanted, View(picture)(part), warp,
+          std::max(0.0, cv::findTransformECC(memory->wanted, GreyView(picture)(part), warp,
                                              cv::MOTION_AFFINE, until, cv::noArray(), 5));
     } catch (const cv::Exception&) {  // it has not converged
       return reading;

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "engine/camera/grey_view.h"
 #include "engine/core/files.h"
 #include "engine/core/units.h"
 #include "engine/report/html_page.h"
@@ -128,8 +129,7 @@ class GalleryWriter {
     const std::string file = FileName(world, Text("%02.0fm", height_m));
     page_.Picture(file, Text("%.1f m over the ground", height_m) +
                             Text(", %.0f degrees down", -Deg(plan.tilt_rad)));
-    const cv::Mat view(picture.height(), picture.width(), CV_8U,
-                       const_cast<std::uint8_t*>(picture.row(0)));
+    const cv::Mat view = GreyView(picture);
     return WritePng(gallery_.folder / file, view);
   }
 

@@ -7,9 +7,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "engine/camera/grey_view.h"
 #include "engine/model/half_size.h"
 #include "engine/stereo/depth_edges.h"
-#include "engine/stereo/grey_view.h"
 #include "engine/stereo/opencv_matchers.h"
 #include "engine/stereo/semi_global.h"
 #include "engine/stereo/speckles.h"

@@ -9,9 +9,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "engine/camera/grey_view.h"
 #include "engine/core/check.h"
 #include "engine/core/median.h"
-#include "engine/stereo/grey_view.h"
 
 namespace palace {
 namespace {

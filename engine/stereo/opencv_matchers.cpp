@@ -6,7 +6,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 
-#include "engine/stereo/grey_view.h"
+#include "engine/camera/grey_view.h"
 
 namespace palace {
 namespace {

@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "engine/stereo/grey_view.h"
+#include "engine/camera/grey_view.h"
 
 namespace palace {
 namespace {

@@ -7,6 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "engine/camera/grey_view.h"
 #include "engine/tracking/picture_part.h"
 #include "engine/tracking/template_match.h"
 
@@ -15,15 +16,10 @@ namespace {
 
 constexpr double kMinVariance = 1.0;  // grey levels squared; flatter patches say nothing
 
-cv::Mat View(const ImageU8& picture) {
-  return {picture.height(), picture.width(), CV_8U,
-          const_cast<std::uint8_t*>(picture.pixels().data())};
-}
-
 ImageU8 Halved(const ImageU8& picture) {
   ImageU8 small((picture.width() + 1) / 2, (picture.height() + 1) / 2);
-  cv::Mat out = View(small);
-  cv::pyrDown(View(picture), out);
+  cv::Mat out = GreyView(small);
+  cv::pyrDown(GreyView(picture), out);
   return small;
 }
 
@@ -75,8 +71,8 @@ PatchComparison ComparePatches(ImageU8 anchor_patch, ImageU8 current_patch) {
                anchor_patch.height() == current_patch.height());
   cv::Mat smooth_anchor;
   cv::Mat smooth_current;
-  cv::GaussianBlur(View(anchor_patch), smooth_anchor, cv::Size(5, 5), 1.1);
-  cv::GaussianBlur(View(current_patch), smooth_current, cv::Size(5, 5), 1.1);
+  cv::GaussianBlur(GreyView(anchor_patch), smooth_anchor, cv::Size(5, 5), 1.1);
+  cv::GaussianBlur(GreyView(current_patch), smooth_current, cv::Size(5, 5), 1.1);
   const Correlation match = Correlate(smooth_anchor, smooth_current);
   ImageU8 difference(anchor_patch.width(), anchor_patch.height());
   std::array<double, 256> expected{};

@@ -5,6 +5,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "engine/camera/grey_view.h"
+
 namespace palace {
 namespace {
 
@@ -17,8 +19,7 @@ constexpr float kMinEigenvalue = 1e-5F;  // below it lies sensor noise on bare g
 
 /// Local maxima of the smaller eigenvalue, in full-resolution pixels, strongest first.
 std::vector<Corner> FindCorners(const ImageU8& picture, const FeatureSelectionOptions& options) {
-  const cv::Mat full(picture.height(), picture.width(), CV_8U,
-                     const_cast<std::uint8_t*>(picture.pixels().data()));
+  const cv::Mat full = GreyView(picture);
   cv::Mat half;
   cv::Mat strength;
   cv::Mat dilated;

@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "engine/camera/grey_view.h"
 #include "engine/tracking/view_geometry.h"
 
 namespace palace {
@@ -11,11 +12,6 @@ namespace {
 
 constexpr int kMinForHomography = 6;
 constexpr double kVisibleMargin_px = 8;
-
-cv::Mat View(const ImageU8& picture) {
-  return {picture.height(), picture.width(), CV_8U,
-          const_cast<std::uint8_t*>(picture.pixels().data())};
-}
 
 cv::Mat WarpedKeyframe(const ImageU8& keyframe, const Eigen::Matrix3d& current_from_key) {
   cv::Matx33d H;
@@ -25,7 +21,7 @@ cv::Mat WarpedKeyframe(const ImageU8& keyframe, const Eigen::Matrix3d& current_f
     }
   }
   cv::Mat warped;
-  cv::warpPerspective(View(keyframe), warped, H, View(keyframe).size(), cv::INTER_LINEAR,
+  cv::warpPerspective(GreyView(keyframe), warped, H, GreyView(keyframe).size(), cv::INTER_LINEAR,
                       cv::BORDER_REPLICATE);
   return warped;
 }
@@ -115,7 +111,7 @@ std::vector<FlowPoint> FollowFromKeyframe(const ImageU8& keyframe, const ImageU8
   if (batch.index.empty()) {
     return points;
   }
-  RunForwardsAndBackwards(WarpedKeyframe(keyframe, current_from_key), View(current), options,
+  RunForwardsAndBackwards(WarpedKeyframe(keyframe, current_from_key), GreyView(current), options,
                           batch);
   for (std::size_t i = 0; i < batch.index.size(); ++i) {
     FlowPoint& point = points[batch.index[i]];

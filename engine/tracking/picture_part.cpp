@@ -5,16 +5,9 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "engine/camera/grey_view.h"
+
 namespace palace {
-namespace {
-
-cv::Mat View(const ImageU8& picture) {
-  return {picture.height(), picture.width(), CV_8U,
-          const_cast<std::uint8_t*>(picture.pixels().data())};
-}
-
-}  // namespace
-
 PictureWindow CutWindow(const ImageU8& picture, const Eigen::Vector2d& middle, int reach) {
   const int x = static_cast<int>(std::lround(middle.x()));
   const int y = static_cast<int>(std::lround(middle.y()));
@@ -34,8 +27,8 @@ PictureWindow CutWindow(const ImageU8& picture, const Eigen::Vector2d& middle, i
 
 ImageU8 CutSquare(const ImageU8& picture, const Eigen::Vector2d& centre, int side) {
   ImageU8 square(side, side);
-  cv::Mat out = View(square);
-  cv::getRectSubPix(View(picture), cv::Size(side, side),
+  cv::Mat out = GreyView(square);
+  cv::getRectSubPix(GreyView(picture), cv::Size(side, side),
                     cv::Point2f(static_cast<float>(centre.x()), static_cast<float>(centre.y())),
                     out);
   return square;
@@ -60,8 +53,8 @@ ImageU8 WarpedSquare(const ImageU8& source, const Eigen::Matrix3d& source_from_v
     }
   }
   ImageU8 square(side, side);
-  cv::Mat out = View(square);
-  cv::remap(View(source), out, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  cv::Mat out = GreyView(square);
+  cv::remap(GreyView(source), out, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   return square;
 }
 

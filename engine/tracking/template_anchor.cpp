@@ -7,6 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "engine/camera/grey_view.h"
 #include "engine/core/median.h"
 
 namespace palace {
@@ -26,8 +27,7 @@ constexpr float kLeastSigma = 0.1F;   // of the template's contrast: sensor nois
 class SmoothPart {
  public:
   SmoothPart(const ImageU8& picture, const Eigen::Vector2d& centre, double reach_px) {
-    const cv::Mat whole(picture.height(), picture.width(), CV_8U,
-                        const_cast<std::uint8_t*>(picture.pixels().data()));
+    const cv::Mat whole = GreyView(picture);
     const int reach = static_cast<int>(std::ceil(reach_px)) + 2;
     cv::Rect part(static_cast<int>(std::lround(centre.x())) - reach,
                   static_cast<int>(std::lround(centre.y())) - reach, 2 * reach + 1, 2 * reach + 1);

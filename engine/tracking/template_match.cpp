@@ -5,15 +5,12 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "engine/camera/grey_view.h"
+
 namespace palace {
 namespace {
 
 constexpr double kMinVariance = 1.0;  // grey levels squared, as in coherence.cpp
-
-cv::Mat View(const ImageU8& picture) {
-  return {picture.height(), picture.width(), CV_8U,
-          const_cast<std::uint8_t*>(picture.pixels().data())};
-}
 
 /// Scores over flat ground are rounding errors divided by rounding errors, up to 1.
 void ForgetFlatPlaces(const cv::Mat& window, int side, cv::Mat& score) {
@@ -59,8 +56,8 @@ TemplateMatch MatchTemplate(const ImageU8& window, const ImageU8& wanted) {
   PALACE_CHECK(side > 0 && wanted.height() == side, side, wanted.height());
   PALACE_CHECK(window.width() >= side && window.height() >= side, window.width(), window.height());
   cv::Mat score;
-  cv::matchTemplate(View(window), View(wanted), score, cv::TM_CCOEFF_NORMED);
-  ForgetFlatPlaces(View(window), side, score);
+  cv::matchTemplate(GreyView(window), GreyView(wanted), score, cv::TM_CCOEFF_NORMED);
+  ForgetFlatPlaces(GreyView(window), side, score);
   double best = 0;
   cv::Point at;
   cv::minMaxLoc(score, nullptr, &best, nullptr, &at);

@@ -4,6 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "engine/camera/grey_view.h"
 #include "engine/tracking/picture_part.h"
 #include "engine/tracking/template_match.h"
 
@@ -13,14 +14,9 @@ namespace {
 /// Sensor noise of two grey levels gives 0.2 at most: fainter places are followed by chance.
 constexpr float kMinEigenvalue = 0.5F;
 
-cv::Mat View(const ImageU8& picture) {
-  return {picture.height(), picture.width(), CV_8U,
-          const_cast<std::uint8_t*>(picture.pixels().data())};
-}
-
 cv::Mat SmallerEigenvalue(const ImageU8& picture, int template_px) {
   cv::Mat smooth, gx, gy;
-  cv::GaussianBlur(View(picture), smooth, {}, 1.0);
+  cv::GaussianBlur(GreyView(picture), smooth, {}, 1.0);
   constexpr double kPerPixel = 1.0 / 8;  // Sobel's weights
   cv::Sobel(smooth, gx, CV_32F, 1, 0, 3, kPerPixel);
   cv::Sobel(smooth, gy, CV_32F, 0, 1, 3, kPerPixel);

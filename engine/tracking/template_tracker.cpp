@@ -4,6 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "engine/camera/grey_view.h"
 #include "engine/core/rounding.h"
 #include "engine/core/text.h"
 #include "engine/tracking/coherence.h"
@@ -18,15 +19,10 @@ namespace {
 constexpr int kMaxMissed = 10;
 constexpr double kSigma_px = 0.5;
 
-cv::Mat View(const ImageU8& picture) {
-  return {picture.height(), picture.width(), CV_8U,
-          const_cast<std::uint8_t*>(picture.pixels().data())};
-}
-
 ImageU8 Resized(const ImageU8& picture) {
   ImageU8 patch(kPatchSide_px, kPatchSide_px);
-  cv::Mat out = View(patch);
-  cv::resize(View(picture), out, out.size(), 0, 0, cv::INTER_LINEAR);
+  cv::Mat out = GreyView(patch);
+  cv::resize(GreyView(picture), out, out.size(), 0, 0, cv::INTER_LINEAR);
   return patch;
 }
 

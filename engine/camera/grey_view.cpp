@@ -1,4 +1,4 @@
-#include "engine/stereo/grey_view.h"
+#include "engine/camera/grey_view.h"
 
 #include <opencv2/core.hpp>
 
