@@ -12,7 +12,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "engine/camera/grey_view.h"
-#include "engine/core/files.h"
+#include "engine/camera/picture_writer.h"
 
 namespace palace {
 namespace {
@@ -70,17 +70,7 @@ Result<ImageU8> ReadGreyPicture(const std::filesystem::path& path) {
 }
 
 Status WriteGreyPicture(const std::filesystem::path& path, const ImageU8& image) {
-  const cv::Mat view = GreyView(image);
-  // OpenCV's own writer leaves what fits on a full disk, under the name of a whole picture.
-  std::vector<std::uint8_t> bytes;
-  try {
-    if (cv::imencode(path.extension().string(), view, bytes) &&
-        WriteTextFile(path, std::string(bytes.begin(), bytes.end()))) {
-      return Ok();
-    }
-  } catch (const cv::Exception&) {  // said below
-  }
-  return UnavailableError(path.string() + ": cannot be written; check folder and disk");
+  return WritePicture(path, GreyView(image));
 }
 
 }  // namespace palace

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "engine/camera/grey_view.h"
+#include "engine/camera/picture_writer.h"
 #include "engine/core/files.h"
 #include "engine/core/units.h"
 #include "engine/report/html_page.h"
@@ -23,18 +23,6 @@ std::string Text(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
   return text;
-}
-
-Status WritePng(const std::filesystem::path& path, const cv::Mat& picture) {
-  try {
-    if (cv::imwrite(path.string(), picture)) {
-      return Ok();
-    }
-  } catch (const cv::Exception&) {
-    // told below
-  }
-  return UnavailableError("cannot write " + path.string() +
-                          ": is the folder writable and the disk not full?");
 }
 
 TruthArea AreaOf(const World& world) {
@@ -129,8 +117,7 @@ class GalleryWriter {
     const std::string file = FileName(world, Text("%02.0fm", height_m));
     page_.Picture(file, Text("%.1f m over the ground", height_m) +
                             Text(", %.0f degrees down", -Deg(plan.tilt_rad)));
-    const cv::Mat view = GreyView(picture);
-    return WritePng(gallery_.folder / file, view);
+    return WritePicture(gallery_.folder / file, GreyView(picture));
   }
 
   Status AddTruth(const World& world) {
@@ -141,7 +128,7 @@ class GalleryWriter {
     page_.Picture(file, "truth: safe discs of " + Text("%.1f m at ", gallery_.clear_radius_m) +
                             ShareText(places) + ", in " + std::to_string(places.Regions()) +
                             " regions");
-    return WritePng(gallery_.folder / file, DrawTruth(truth, places, limits));
+    return WritePicture(gallery_.folder / file, DrawTruth(truth, places, limits));
   }
 
   const WorldGallery& gallery_;

@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "engine/camera/picture_writer.h"
 #include "engine/slad/sites/site_selection.h"
 
 namespace palace {
@@ -159,18 +160,6 @@ void Write(cv::Mat& picture, const std::string& text, cv::Point at, double size 
   cv::putText(picture, text, at, cv::FONT_HERSHEY_SIMPLEX, size, kInk, 1, cv::LINE_AA);
 }
 
-Status Save(const std::filesystem::path& path, const cv::Mat& picture) {
-  bool written = false;
-  try {
-    written = cv::imwrite(path.string(), picture);
-  } catch (const cv::Exception&) {
-    written = false;
-  }
-  return written ? Ok()
-                 : Status(UnavailableError("cannot write " + path.string() +
-                                           ": is the folder writable and the disk not full?"));
-}
-
 /// Blue is safe, orange is over a limit, as on the screen (blue, green, red).
 const cv::Vec3d kSafeInk(255, 178, 92), kUnsafeInk(60, 150, 240);
 
@@ -253,7 +242,7 @@ Status WriteMapPicture(const std::filesystem::path& path, const GridF& cells,
     std::snprintf(text, sizeof text, "%s%.3g", beyond, low + (high - low) * tick / 4);
     Write(sheet, text, {left + 30, bottom - (bottom - top) * tick / 4 + 5});
   }
-  return Save(path, sheet);
+  return WritePicture(path, sheet);
 }
 
 Status WriteSafeLandingPicture(const std::filesystem::path& path, const ElevationMap& map,
@@ -291,7 +280,7 @@ Status WriteSafeLandingPicture(const std::filesystem::path& path, const Elevatio
       DrawCross(large, at, 10, ink);
     }
   }
-  return Save(path, large);
+  return WritePicture(path, large);
 }
 
 Status WriteOverlay(const std::filesystem::path& path, const ImageU8& left,
@@ -333,7 +322,7 @@ Status WriteOverlay(const std::filesystem::path& path, const ImageU8& left,
                   ink, 2, cv::LINE_AA);
     }
   }
-  return Save(path, picture);
+  return WritePicture(path, picture);
 }
 
 std::string PictureAsDataUri(const std::filesystem::path& path) {

@@ -1,6 +1,6 @@
 # palacectl: the same engine with no window. Its simulated pictures need GL, so it comes with the GUI
 # rooms; engine-only builds (sanitizers) leave it out.
-palace_room(survey engine/survey palace_slad palace_geodata)
+palace_room(survey engine/survey palace_slad palace_geodata palace_camera)
 palace_room(experiments engine/experiments palace_capture palace_report palace_calibration palace_runtime palace_simulation palace_faults palace_journal palace_survey)
 target_include_directories(palace_experiments SYSTEM PRIVATE ${CLI11_INCLUDE_DIR})
 # OpenCV's contrib trackers are peers there; that library alone, not what its target would bring along.

@@ -1,10 +1,12 @@
 #include "gui/platform/screenshot.h"
 
-#include <fstream>
+#include <algorithm>
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "engine/core/files.h"
 
 namespace palace {
 namespace {
@@ -18,11 +20,7 @@ Status Save(const cv::Mat& picture, const std::string& path) {
   } catch (const cv::Exception& failure) {
     return UnavailableError(path + ": " + failure.what());
   }
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()),
-             static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) {
+  if (!WriteTextFile(path, std::string(bytes.begin(), bytes.end()))) {
     return UnavailableError(path +
                             ": cannot be written; check that the folder exists, may be "
                             "written and has room");

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "engine/camera/camera_model.h"
 #include "engine/camera/files/camera_files.h"
+#include "engine/camera/picture_writer.h"
 #include "engine/capture/euroc/euroc_frames.h"
 #include "engine/capture/picture_file.h"
 #include "engine/core/files.h"
@@ -131,13 +131,7 @@ Status WriteDepth(const fs::path& path, const ImageF& depth_m) {
           mm > 0 && mm <= kMost_mm ? static_cast<std::uint16_t>(mm) : std::uint16_t{0};
     }
   }
-  try {
-    if (cv::imwrite(path.string(), depth)) {
-      return Ok();
-    }
-  } catch (const cv::Exception&) {  // said below
-  }
-  return CannotWrite(path);
+  return WritePicture(path, depth);
 }
 
 /// The first that failed.
