@@ -1,12 +1,10 @@
-// The vocabulary at the bottom: frames, random streams, queues, results.
+// The vocabulary at the bottom: frames, random streams, results.
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <thread>
 
 #include <gtest/gtest.h>
 
-#include "engine/core/bounded_queue.h"
 #include "engine/core/frames.h"
 #include "engine/core/hash.h"
 #include "engine/core/random.h"
@@ -93,35 +91,6 @@ TEST(Random, NormalHasItsMoments) {
   }
   EXPECT_NEAR(sum / kCount, 0, 0.02);
   EXPECT_NEAR(square / kCount, 1, 0.02);
-}
-
-TEST(Queue, KeepsOrderAcrossThreadsAndLosesNothing) {
-  BoundedQueue<int> queue(4);
-  std::jthread producer([&](std::stop_token stop) {
-    for (int i = 0; i < 1000; ++i) {
-      queue.Push(i, stop);
-    }
-  });
-  for (int i = 0; i < 1000; ++i) {
-    EXPECT_EQ(queue.Pop(), i);
-  }
-}
-
-TEST(Queue, TheOldestIsFoldedIntoTheNextWhenFull) {
-  BoundedQueue<int> queue(2);
-  const auto add = [](int oldest, int& next) { next += 10 * oldest; };
-  EXPECT_EQ(queue.PushOrFold(1, add) + queue.PushOrFold(2, add), 0u);
-  EXPECT_EQ(queue.PushOrFold(3, add), 1u);
-  EXPECT_EQ(queue.TryPop(), 12);
-  EXPECT_EQ(queue.TryPop(), 3);
-  EXPECT_EQ(queue.TryPop(), std::nullopt);
-}
-
-TEST(Queue, AStopEndsTheWait) {
-  BoundedQueue<int> queue(1);
-  std::stop_source stop;
-  stop.request_stop();
-  EXPECT_EQ(queue.Pop(stop.get_token()), std::nullopt);
 }
 
 TEST(ResultDeathTest, TakingTheValueOfAnErrorIsABugOfOurs) {
