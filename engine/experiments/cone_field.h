@@ -11,8 +11,7 @@
 
 namespace palace {
 
-inline constexpr double kTallCone_m = 0.7112;   ///< 28 in
-inline constexpr double kSmallCone_m = 0.4572;  ///< 18 in
+inline constexpr double kTallCone_m = 0.7112;  ///< 28 in
 inline constexpr int kConesInField = 12;
 
 struct ConeFieldPlan {

@@ -168,11 +168,6 @@ Metrics MetricsFor(const std::vector<EvidenceRow>& rows, const Style& s, bool na
 
 }  // namespace
 
-void DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
-                      bool narrow) {
-  DrawRows(ui, rect, rows, narrow, MetricsFor(rows, ui.style, narrow));
-}
-
 std::size_t RowsBeyond(const Rect& area, std::size_t rows, const Style& style, bool narrow) {
   const float fit = std::floor(std::max(area.h, 0.0f) / EvidenceRowHeight(style, narrow));
   return rows - std::min(rows, static_cast<std::size_t>(std::max(fit, 1.0f)));

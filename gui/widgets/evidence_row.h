@@ -27,9 +27,6 @@ struct EvidenceRow {
 /// The row as the screen shows it.
 EvidenceRow RowOf(const LimitRow& limit);
 
-/// Draws rows from the top of `rect` (full panel width); items "evidence/<name>".
-void DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
-                      bool narrow);
 inline float EvidenceRowHeight(const Style& s, bool narrow) { return s.Px(narrow ? 26 : 28); }
 
 /// Which row stands at the top of rows that have more than their room.
@@ -40,8 +37,8 @@ struct RowScroll {
 std::size_t RowsBeyond(const Rect& area, std::size_t rows, const Style& style, bool narrow);
 /// "+3 rows"; empty where all have room.
 std::string RowsBeyondWords(std::size_t beyond);
-/// As many rows as `area` holds whole. Where there are more, the wheel over them, or Up and Down on
-/// item `name`, bring the others into sight.
+/// As many rows as `area` (full panel width) holds whole, items "evidence/<name>". Where there are
+/// more, the wheel over them, or Up and Down on item `name`, bring the others into sight.
 void DrawScrolledRows(UiFrame& ui, std::string_view name, const Rect& area,
                       const std::vector<EvidenceRow>& rows, bool narrow, RowScroll& scroll);
 

@@ -34,7 +34,17 @@ struct Pen {
   static constexpr float kPi = 3.14159265f;
 };
 
-void DrawStatus(const Pen& p, Icon icon) {
+void DrawDashedSquare(const Pen& p) {
+  for (const float a : {-0.75f, -0.2f, 0.35f}) {
+    const float b = a + 0.4f;
+    p.Line(a, -0.75f, b, -0.75f);
+    p.Line(a, 0.75f, b, 0.75f);
+    p.Line(-0.75f, a, -0.75f, b);
+    p.Line(0.75f, a, 0.75f, b);
+  }
+}
+
+void DrawIn(const Pen& p, Icon icon) {
   switch (icon) {
     case Icon::kWarning:
       p.Triangle(0, -0.85f, 0.95f, 0.8f, -0.95f, 0.8f);
@@ -63,16 +73,11 @@ void DrawStatus(const Pen& p, Icon icon) {
       p.Line(0, 0.05f, 0, -0.5f);
       p.Line(0, 0, 0.4f, 0.15f);
       break;
-    default: {  // kDone
+    case Icon::kDone: {
       const ImVec2 points[3] = {p.At(-0.75f, 0.05f), p.At(-0.2f, 0.6f), p.At(0.8f, -0.6f)};
       p.dl->AddPolyline(points, 3, p.colour, 0, p.line * 1.2f);
       break;
     }
-  }
-}
-
-void DrawTransport(const Pen& p, Icon icon) {
-  switch (icon) {
     case Icon::kPlay:
       p.Triangle(-0.5f, -0.7f, 0.7f, 0, -0.5f, 0.7f);
       break;
@@ -96,17 +101,6 @@ void DrawTransport(const Pen& p, Icon icon) {
       p.Frame(-0.05f, -0.5f, 0.75f, 0.5f);
       p.Triangle(-0.3f, -0.45f, -0.3f, 0.45f, -0.9f, 0);
       break;
-    default:  // kLoop
-      p.Arc(0.65f, 200, 350);
-      p.Arc(0.65f, 20, 170);
-      p.Triangle(0.35f, -0.25f, 0.95f, -0.25f, 0.65f, 0.15f);
-      p.Triangle(-0.35f, 0.25f, -0.65f, -0.15f, -0.95f, 0.25f);
-      break;
-  }
-}
-
-void DrawAction(const Pen& p, Icon icon) {
-  switch (icon) {
     case Icon::kFlag:
       p.Line(-0.5f, -0.8f, -0.5f, 0.8f);
       p.Triangle(-0.45f, -0.75f, 0.65f, -0.35f, -0.45f, 0.05f);
@@ -128,57 +122,18 @@ void DrawAction(const Pen& p, Icon icon) {
       p.Line(-0.25f, -0.5f, 0.3f, 0);
       p.Line(0.3f, 0, -0.25f, 0.5f);
       break;
-    case Icon::kClose:
-      p.Line(-0.5f, -0.5f, 0.5f, 0.5f);
-      p.Line(-0.5f, 0.5f, 0.5f, -0.5f);
-      break;
-    case Icon::kCamera:
-      p.Frame(-0.85f, -0.4f, 0.35f, 0.5f);
-      p.Triangle(0.45f, 0.05f, 0.9f, -0.35f, 0.9f, 0.45f);
-      break;
     case Icon::kScreen:
       p.Frame(-0.8f, -0.6f, 0.8f, 0.4f);
       p.Line(-0.35f, 0.75f, 0.35f, 0.75f);
-      break;
-    case Icon::kLock:
-      p.Box(-0.55f, -0.05f, 0.55f, 0.75f);
-      p.dl->PathArcTo(p.At(0, -0.1f), p.half * 0.38f, -Pen::kPi, 0, 12);
-      p.dl->PathStroke(p.colour, 0, p.line);
-      break;
-    case Icon::kEye:
-      p.dl->PathArcTo(p.At(0, 0.55f), p.half, -2.5f, -0.64f, 14);
-      p.dl->PathStroke(p.colour, 0, p.line);
-      p.dl->PathArcTo(p.At(0, -0.55f), p.half, 0.64f, 2.5f, 14);
-      p.dl->PathStroke(p.colour, 0, p.line);
-      p.dl->AddCircleFilled(p.c, p.half * 0.25f, p.colour);
-      break;
-    case Icon::kMaximise:
-      p.Frame(-0.6f, -0.6f, 0.6f, 0.6f);
-      break;
-    case Icon::kMenu:
-      for (const float x : {-0.5f, 0.0f, 0.5f}) {
-        p.dl->AddCircleFilled(p.At(x, 0), p.half * 0.14f, p.colour);
-      }
       break;
     case Icon::kArrowRight:
       p.Line(-0.7f, 0, 0.6f, 0);
       p.Line(0.2f, -0.4f, 0.65f, 0);
       p.Line(0.65f, 0, 0.2f, 0.4f);
       break;
-    default:  // kReject
-      p.Ring(0, 0, 0.75f);
-      p.Line(-0.5f, 0.5f, 0.5f, -0.5f);
+    case Icon::kSimulation:
+      DrawDashedSquare(p);
       break;
-  }
-}
-
-void DrawDashedSquare(const Pen& p) {
-  for (const float a : {-0.75f, -0.2f, 0.35f}) {
-    const float b = a + 0.4f;
-    p.Line(a, -0.75f, b, -0.75f);
-    p.Line(a, 0.75f, b, 0.75f);
-    p.Line(-0.75f, a, -0.75f, b);
-    p.Line(0.75f, a, 0.75f, b);
   }
 }
 
@@ -187,15 +142,7 @@ void DrawDashedSquare(const Pen& p) {
 void DrawIcon(ImDrawList* dl, Icon icon, ImVec2 centre, float size, ImU32 colour) {
   const bool status = icon <= Icon::kDone;
   const Pen pen{dl, centre, size / 2, colour, status ? size * 0.12f : size * 0.09f};
-  if (status) {
-    DrawStatus(pen, icon);
-  } else if (icon == Icon::kSimulation) {
-    DrawDashedSquare(pen);
-  } else if (icon <= Icon::kLoop) {
-    DrawTransport(pen, icon);
-  } else {
-    DrawAction(pen, icon);
-  }
+  DrawIn(pen, icon);
 }
 
 }  // namespace palace

@@ -22,23 +22,15 @@ enum class Icon {
   kStepBack,
   kFrameForward,
   kFrameBack,
-  kLoop,
   kFlag,
   kSearch,
   kReset,
   kChevronDown,
   kChevronRight,
-  kClose,
-  kCamera,
   kScreen,
-  kLock,
-  kEye,
-  kMaximise,
-  kMenu,
   kArrowRight,
   kReplay,
   kSimulation,
-  kReject,
 };
 
 /// Draws the icon in a square box of `size` pixels around `centre`.

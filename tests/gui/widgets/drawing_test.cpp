@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "gui/widgets/evidence_row.h"
 #include "gui/widgets/map/contour.h"
 #include "gui/widgets/map/map_image.h"
 #include "gui/widgets/number_text.h"
