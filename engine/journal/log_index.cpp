@@ -80,7 +80,6 @@ void TakeChecksums(const Sidecar& sidecar, LogIndex& index) {
       ++matched;
     }
   }
-  index.report.has_sidecar = true;
   index.report.missing_events = sidecar.entries.size() - matched;
 }
 
@@ -131,7 +130,6 @@ void CompareChecksums(const LogFile& file, std::stop_token stop, LogIndex& index
   }
   if (compared >= kMany && 10 * report.checksum_errors > 9 * compared) {
     report.checksum_errors = report.missing_events = 0;
-    report.has_sidecar = false;
     report.sidecar_problem = "the sidecar is of another log";
     for (LogEntry& entry : index.entries) {
       entry.has_crc = false;
@@ -154,7 +152,6 @@ Result<LogIndex> BuildIndex(const LogFile& file, std::stop_token stop) {
       entries.pop_back();
     }
     if (Fits(file, entries)) {
-      index.report.has_sidecar = true;
       index.report.missing_events = sidecar->entries.size() - entries.size();
       index.channels = sidecar->channels;
       index.entries = std::move(entries);

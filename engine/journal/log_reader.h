@@ -70,7 +70,6 @@ struct LogReport {
   std::uint64_t number_jumps = 0;      ///< event numbers that do not rise by one
   std::uint64_t checksum_errors = 0;   ///< against the sidecar
   std::uint64_t missing_events = 0;    ///< in the sidecar, not in the log
-  bool has_sidecar = false;            ///< one that belongs to this log
   std::uint64_t unchecked = 0;         ///< events that no checksum is known of
   std::string sidecar_problem{};       ///< why the sidecar does not check all; empty when it does
   bool cancelled = false;

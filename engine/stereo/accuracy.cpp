@@ -44,21 +44,15 @@ class PlaneSums {
     const Eigen::Vector3d row(1, north, east);
     normal_ += row * row.transpose();
     right_ += row * height;
-    square_ += height * height;
     ++count_;
   }
   int count() const { return count_; }
   /// (1, b, c) of h = a + b north + c east.
   Eigen::Vector3d Fit() const { return normal_.ldlt().solve(right_); }
-  double Deviation() const {
-    const double residual = square_ - right_.dot(Fit());
-    return std::sqrt(std::max(0.0, residual) / std::max(1, count_ - 3));
-  }
 
  private:
   Eigen::Matrix3d normal_ = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right_ = Eigen::Vector3d::Zero();
-  double square_ = 0;
   int count_ = 0;
 };
 
@@ -78,7 +72,7 @@ struct PatchSums {
 
 PatchSlope SlopeFrom(const PatchSums& sums) {
   if (sums.measured.count() < kLeastInPatch) {
-    return {kNaN, kNaN, 0, kNaN};
+    return {kNaN, kNaN, 0};
   }
   const auto normal = [](const Eigen::Vector3d& plane) {
     return Eigen::Vector3d(-plane.y(), -plane.z(), 1).normalized();
@@ -89,7 +83,6 @@ PatchSlope SlopeFrom(const PatchSums& sums) {
   slope.slope_rad = std::atan2(found.head<2>().norm(), found.z());
   slope.error_rad = std::atan2(found.cross(truth).norm(), found.dot(truth));
   slope.known = static_cast<double>(sums.measured.count()) / sums.truth.count();
-  slope.sd_m = sums.measured.Deviation();
   return slope;
 }
 

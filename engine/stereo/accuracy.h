@@ -59,7 +59,6 @@ struct PatchSlope {
   double slope_rad = 0;  ///< angle of the plane to the level
   double error_rad = 0;  ///< angle between it and the plane through the true points
   double known = 0;      ///< share of the patch's pixels
-  double sd_m = 0;       ///< of the points about the plane
 };
 /// NaN where fewer than 20 pixels are known.
 PatchSlope MeasureSlope(const MeasuredView& view, const Patch& patch);

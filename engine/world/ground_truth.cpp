@@ -230,7 +230,7 @@ DiscTruth TruthOfDisc(const GroundTruth& truth, const Vector2d& place_m, double 
   DiscTruth disc;
   PlaneSums sums(truth.geometry, place_m);
   float step = 0;
-  int water = 0, moving = 0, soft = 0;
+  int water = 0, moving = 0;
   disc.known = OverRows(truth.geometry, place_m, radius_m, [&](const DiscRow& row) {
     double heights = 0, heights_by_col = 0;
     for (int col = row.from; col <= row.to; ++col) {
@@ -241,7 +241,6 @@ DiscTruth TruthOfDisc(const GroundTruth& truth, const Vector2d& place_m, double 
       const std::uint8_t flags = truth.flags.at(row.row, col);
       water += (flags & kWaterThere) != 0;
       moving += (flags & kMovingThere) != 0;
-      soft += (flags & kSoftThere) != 0;
     }
     sums.Add(row, heights, heights_by_col);
     return true;
@@ -256,7 +255,6 @@ DiscTruth TruthOfDisc(const GroundTruth& truth, const Vector2d& place_m, double 
   disc.step_m = static_cast<double>(step);
   disc.water_share = water / sums.count();
   disc.moving_share = moving / sums.count();
-  disc.soft_share = soft / sums.count();
   return disc;
 }
 

@@ -62,7 +62,6 @@ struct DiscTruth {
   double step_m = std::numeric_limits<double>::quiet_NaN();
   double water_share = 0;
   double moving_share = 0;
-  double soft_share = 0;
 };
 /// Over the cells whose middles lie within the disc.
 DiscTruth TruthOfDisc(const GroundTruth& truth, const Eigen::Vector2d& place_m, double radius_m);
