@@ -16,9 +16,6 @@ namespace {
 constexpr int kMostCells = 4096;
 /// Points this far below the highest of their cell belong to the same surface.
 constexpr double kSurfaceDepth_m = 0.3;
-constexpr double kLeastVariance_m2 = 1e-6;
-/// Ground of ordinary slope spreads inside a cell, by this share of its side, without being noise.
-constexpr double kSlopeSpread = 0.1;
 /// Where points are scattered at random, three a cell leave one cell in twenty empty.
 constexpr double kPointsACell = 3;
 constexpr double kLowestLand_m = -450, kHighestLand_m = 9000;
@@ -68,7 +65,7 @@ ElevationMap MapOfTops(const CloudPoints& points, const GridGeometry& geometry) 
       ++top.count;
     }
   });
-  const double slope_spread_m2 = std::pow(kSlopeSpread * geometry.cell_m, 2);
+  const double slope_spread_m2 = std::pow(kSlopeSpread_cells * geometry.cell_m, 2);
   for (std::size_t i = 0; i < tops.cells().size(); ++i) {
     const TopSums& top = tops.cells()[i];
     if (top.count == 0) {
@@ -79,7 +76,7 @@ ElevationMap MapOfTops(const CloudPoints& points, const GridGeometry& geometry) 
     const double spread = (static_cast<double>(top.square) / n - mean * mean) * bessel;
     map.height_m.cells()[i] -= static_cast<float>(mean);
     map.variance_m2.cells()[i] =
-        static_cast<float>(std::max(spread - slope_spread_m2, kLeastVariance_m2) / n);
+        static_cast<float>(std::max(spread - slope_spread_m2, kLeastPointVariance_m2) / n);
     map.frame_count.cells()[i] = 1;
     map.state.cells()[i] = CellState::kMeasured;
   }

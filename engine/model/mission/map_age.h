@@ -1,12 +1,13 @@
 // Age of the map that decisions rest on.
 #pragma once
 
+#include "engine/model/site_standing.h"
 #include "engine/model/snapshot.h"
 
 namespace palace {
 
 /// Older than this nothing may rest on a map: no approval (guard G4), no word on the screen.
-inline constexpr double kMapOld_s = 2;
+inline constexpr double kMapOld_s = kOldGround_s;
 
 /// Age of the map shown, by the data's clock; NaN without one.
 double MapAge(const EngineSnapshot& snapshot);

@@ -9,6 +9,7 @@
 #include "engine/slad/pictures/line_marks.h"
 #include "engine/slad/pictures/line_parallax.h"
 #include "engine/slad/pictures/line_pieces.h"
+#include "engine/slad/pictures/thin_piece.h"
 
 namespace palace {
 namespace {
@@ -20,7 +21,6 @@ constexpr int kLeastSum = 110;       // of 224
 constexpr std::size_t kLeastPieces = 4;
 // With its height.
 constexpr double kLeastAside_px = 1;
-constexpr int kMostAside_px = 40;
 constexpr double kLeastContrast_grey = 2.5;  // sensor noise
 constexpr double kFoundAgain = 0.5;          // of the line's contrast in the left picture, at least
 constexpr double kNoStronger = 1.5;          // and at most

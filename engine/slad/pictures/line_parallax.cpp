@@ -15,7 +15,6 @@ namespace {
 
 // The line itself.
 constexpr int kAcross_px = 4;        // its profile reaches so far to both sides
-constexpr int kMostAside_px = 40;    // it is looked for so far aside
 constexpr double kMostUnlike = 0.3;  // of the profile's energy, what is left where it is found
 constexpr double kTwice = 0.6;       // of that energy: found elsewhere with less left over
 constexpr double kMatching_px = 0.1;

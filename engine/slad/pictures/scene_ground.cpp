@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "engine/slad/terrain/laid_over.h"
+
 namespace palace {
 namespace {
 
@@ -13,7 +15,6 @@ constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 constexpr float kSameSurface_px = 1;  // raw disparities this near the opening are ground
 constexpr float kEdge_px = 2.0F;      // a bend of the disparity within two blocks
 constexpr float kHidden_px = 1;
-constexpr int kSmallest_px = 64;
 
 /// Extreme of each value and its neighbours up to two blocks away, first along rows, then along
 /// columns. `better(a, b)` picks one of two.
@@ -224,7 +225,7 @@ SceneGround FindSceneGround(const SceneView& view) {
   }
   const int width = view.left->width(), height = view.left->height();
   const ImageF& disparity_px = view.range->disparity_px;
-  if (width < kSmallest_px || height < kSmallest_px || view.right->width() != width ||
+  if (width < kLeastPicture_px || height < kLeastPicture_px || view.right->width() != width ||
       view.right->height() != height || disparity_px.width() != width ||
       disparity_px.height() != height || !(view.range->baseline_m > 0)) {
     return ground;

@@ -16,6 +16,9 @@ inline constexpr double kMostAbove_px = 96;
 /// A line nearer to the ground than this is no thin structure.
 inline constexpr double kLeastAbove_px = 1.5;
 
+/// A line along the baseline is looked for up to so many rows aside of itself.
+inline constexpr int kMostAside_px = 40;
+
 enum class ThinHeight { kKnown, kUnknown, kOnGround };
 
 /// Ends in W. Without a known height they lie on the ground seen behind it.

@@ -24,6 +24,12 @@
 
 namespace palace {
 
+/// A perfect point's weight stays finite: variances below (1 mm)^2 count alike.
+inline constexpr double kLeastPointVariance_m2 = 1e-6;
+/// What ground of ordinary slope spreads inside a cell by, in cells, one standard deviation,
+/// without being noise.
+inline constexpr double kSlopeSpread_cells = 0.1;
+
 /// The range map has a pose, in the level frame W (north-east-down, metres).
 ElevationMap ElevationFromRange(const RangeMap& range, const SladSettings& settings);
 

@@ -17,9 +17,8 @@ namespace {
 constexpr float kGradientNoise = 0.30F;  // of e's variance, in g^2
 constexpr float kAstray2 = 0.04F;        // px^2: a place's pixels scatter so about its one height
 constexpr float kSpeck2 = 0.12F;         // of the square of h
-constexpr int kSmallest_px = 64;
-constexpr int kOther_rows = 8;  // to the pixels whose gradients are asked beside
-constexpr int kStripes = 4;     // summed one after the other
+constexpr int kOther_rows = 8;           // to the pixels whose gradients are asked beside
+constexpr int kStripes = 4;              // summed one after the other
 
 /// Grey a pixel, along the row.
 float Gradient(const float* grey) {
@@ -141,7 +140,7 @@ void FineRelief::TakeRow(int row, float remember) {
 void FineRelief::Add(const RangeMap& range, const ImageU8& left, const ImageU8& right,
                      const PlaneCorrection& off, int memory) {
   PALACE_CHECK(range.pose.has_value());
-  if (left.width() < kSmallest_px || left.height() < kSmallest_px) {
+  if (left.width() < kLeastPicture_px || left.height() < kLeastPicture_px) {
     return;
   }
   const LaidOver laid = LayOver(left, right, range.disparity_px);

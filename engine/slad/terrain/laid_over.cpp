@@ -291,8 +291,7 @@ Light LightBetween(const ImageF& left, LaidOver& laid) {
 
 LaidOver LayOver(const ImageU8& left, const ImageU8& right, const ImageF& disparity_px) {
   const int width = left.width(), height = left.height();
-  constexpr int kSmallest_px = 64;
-  PALACE_CHECK(width >= kSmallest_px && height >= kSmallest_px && right.width() == width &&
+  PALACE_CHECK(width >= kLeastPicture_px && height >= kLeastPicture_px && right.width() == width &&
                    right.height() == height && disparity_px.width() == width &&
                    disparity_px.height() == height,
                width, height, right.width(), right.height(), disparity_px.width());

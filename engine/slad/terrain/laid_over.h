@@ -22,6 +22,9 @@
 
 namespace palace {
 
+/// Pictures that are less wide or high than this are not looked at.
+inline constexpr int kLeastPicture_px = 64;
+
 struct LaidOver {
   static constexpr int kPatch_px = 4;
 
@@ -32,10 +35,10 @@ struct LaidOver {
   ImageF left;          ///< L
 };
 
-/// Pictures and disparities of one size, at least 64 pixels each way; NaN disparities are unknown.
-/// Nothing is known of windows of which stereo measured less than 15 %, beyond the right picture,
-/// and between patches whose disparities differ by more than a pixel: a depth edge. Rows are shared
-/// among OpenCV's threads; their number changes no bit.
+/// Pictures and disparities of one size, at least kLeastPicture_px each way; NaN disparities are
+/// unknown. Nothing is known of windows of which stereo measured less than 15 %, beyond the right
+/// picture, and between patches whose disparities differ by more than a pixel: a depth edge. Rows
+/// are shared among OpenCV's threads; their number changes no bit.
 LaidOver LayOver(const ImageU8& left, const ImageU8& right, const ImageF& disparity_px);
 
 }  // namespace palace

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/slad/terrain/elevation_map_builder.h"
+
 namespace palace {
 namespace {
 
@@ -12,12 +14,8 @@ constexpr std::size_t kSampleSize = 20000;
 /// Share of the points left out on each side of the bounds: stray matches.
 constexpr double kBoundsShare = 0.01;
 constexpr double kFarthestView = 2;  // in mean ranges
-/// A perfect point's weight stays finite: variances below (1 mm)^2 count alike.
-constexpr double kLeastPointVariance_m2 = 1e-6;
 /// Mean variance above which points state their noise; a survey's do not.
 constexpr double kStatedVariance_m2 = 4e-6;
-/// What ground of ordinary slope spreads inside a cell by, in cells, one standard deviation.
-constexpr double kSlopeSpread_cells = 0.1;
 constexpr double kSaidVariance = 2;  // points err by somewhat more than they say
 
 template <typename Get>
