@@ -46,7 +46,7 @@ std::string LetterOf(const LandingSite* site) {
   return site != nullptr ? site->letter : std::string("none");
 }
 
-double MapAge(const EngineSnapshot& snap, const TerrainDecision* decision) {
+double AgeBehindPicture(const EngineSnapshot& snap, const TerrainDecision* decision) {
   if (decision == nullptr) {
     return NAN;
   }
@@ -56,7 +56,7 @@ double MapAge(const EngineSnapshot& snap, const TerrainDecision* decision) {
 
 void DrawCurrentVerdict(UiFrame& ui, const Rect& image, const EngineSnapshot& snap,
                         const TerrainDecision* decision, OverlayCache& cache) {
-  if (decision != nullptr && !(MapAge(snap, decision) > kOldMap_s)) {
+  if (decision != nullptr && !(AgeBehindPicture(snap, decision) > kVerdictOld_s)) {
     DrawVerdict(ui, image, decision->verdict, cache);
     const auto camera = LeftCamera(snap);
     if (camera && decision->hazards && decision->elevation) {
@@ -69,10 +69,10 @@ void DrawCurrentVerdict(UiFrame& ui, const Rect& image, const EngineSnapshot& sn
 
 void DrawVerdictPlate(UiFrame& ui, const Rect& image, const EngineSnapshot& snap,
                       const TerrainDecision* decision, LegendPlace& legend) {
-  const double age_s = MapAge(snap, decision);
+  const double age_s = AgeBehindPicture(snap, decision);
   if (decision == nullptr) {
     TextPlate(ui, image, Corner::kTopLeft, NoMapWords(snap));
-  } else if (age_s > kOldMap_s) {
+  } else if (age_s > kVerdictOld_s) {
     const std::string& why = snap.terrain->why_no_map;
     const std::string last = "Last map " + Duration(age_s) + " old";
     // The reason without what follows from it, where there is no room for both.

@@ -13,9 +13,9 @@
 namespace palace {
 
 /// A verdict is drawn on the picture of its own map only, give or take one missed map.
-inline constexpr double kOldMap_s = 0.35;
+inline constexpr double kVerdictOld_s = 0.35;
 /// How much older the decision's map is than the picture shown, s; NaN without either.
-double MapAge(const EngineSnapshot& snap, const TerrainDecision* decision);
+double AgeBehindPicture(const EngineSnapshot& snap, const TerrainDecision* decision);
 /// The decision's verdict over the picture; nothing when its map is older than the picture.
 void DrawCurrentVerdict(UiFrame& ui, const Rect& image, const EngineSnapshot& snap,
                         const TerrainDecision* decision, OverlayCache& cache);

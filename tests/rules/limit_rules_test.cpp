@@ -38,9 +38,9 @@ const std::set<std::pair<std::string, std::string>> kAllowed = {
     {"gui/panels/terrain_views.cpp", "kSamePlace_m"},
     {"gui/widgets/map/camera_overlay.cpp", "clear_radius_m"},
     // A verdict is drawn on the picture of its own map.
-    {"gui/panels/terrain_views.cpp", "kOldMap_s"},
+    {"gui/panels/terrain_views.cpp", "kVerdictOld_s"},
     {"gui/panels/terrain_views.cpp", "age_s"},
-    {"gui/panels/review/review_workspace.cpp", "kOldMap_s"},
+    {"gui/panels/review/review_workspace.cpp", "kVerdictOld_s"},
     // From when on a view of the truth says its age.
     {"gui/panels/simulate/world_views.cpp", "age_s"},
     {"gui/panels/simulate/world_views.cpp", "kNewTruth_s"},

@@ -194,7 +194,8 @@ bool ApproachCorridors::IsClear(const Approach& approach, const LandingSite& sit
       if (map.state.at(r, c) == CellState::kUnknown) {
         continue;
       }
-      const double noise_m = kSigmas * std::sqrt(static_cast<double>(map.variance_m2.at(r, c)));
+      const double noise_m =
+          kCorridorSigmas * std::sqrt(static_cast<double>(map.variance_m2.at(r, c)));
       if (rise_m - noise_m > free_m) {
         return false;
       }

@@ -18,7 +18,7 @@
 namespace palace {
 
 /// Sigmas of noise that a height may owe: of the site's plane, of what stands in the corridor.
-inline constexpr double kSigmas = 3;
+inline constexpr double kCorridorSigmas = 3;
 
 /// A straight way down to a site, as wide as the rotor.
 struct Approach {

@@ -57,7 +57,7 @@ SitePlane FitSitePlane(const ElevationMap& map, const SladSettings& settings, Ce
       const double z = static_cast<double>(map.Measured().at(cell));
       const Eigen::Vector3d basis(1, (centre.row - cell.row) * g.cell_m,
                                   (cell.col - centre.col) * g.cell_m);
-      const double limit = settings.limits.max_deviation_m + kSigmas * std::sqrt(variance);
+      const double limit = settings.limits.max_deviation_m + kCorridorSigmas * std::sqrt(variance);
       if (pass == 1 && std::abs(z - basis.dot(x)) > limit) {
         return;
       }

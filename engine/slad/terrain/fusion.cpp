@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kGate2 = 9;                   // three sigmas
 constexpr double kGateFloor_m2 = 0.05 * 0.05;  // matching wobbles this much beyond its sigma
-constexpr double kVarianceFloor_m2 = 1e-5;
+constexpr double kFusedFloor_m2 = 1e-5;
 constexpr double kUnseenGrowth_m2 = 4e-6;  // a map unseen: 2 cm after a hundred maps
 constexpr double kForgotten_m2 = 0.25;
 constexpr int kLongestMemory_frames = 50;
@@ -358,7 +358,7 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
         fused * (remember * static_cast<double>(measured) / p + measured_z / noise));
     spread.Add(off, noise, memory);
     spread.Follow(static_cast<double>(mean) - m);
-    variance = static_cast<float>(std::max(fused, kVarianceFloor_m2));
+    variance = static_cast<float>(std::max(fused, kFusedFloor_m2));
     count = static_cast<std::uint16_t>(std::min<int>(count + 1, memory));
   }
 }

@@ -20,7 +20,7 @@ void DrawLeft(const EngineSnapshot& snap, const Rect& rect, ReviewState& state, 
   look.decision = snap.terrain->applied.get();
   look.ghost = snap.terrain->recorded.get();
   look.ghost_word = "recorded";
-  look.plate = snap.terrain->recorded && !(MapAge(snap, look.decision) > kOldMap_s)
+  look.plate = snap.terrain->recorded && !(AgeBehindPicture(snap, look.decision) > kVerdictOld_s)
                    ? "Re-decided overlay"
                    : "";
   look.probe = &state.probe;
