@@ -13,7 +13,6 @@
 namespace palace {
 namespace {
 
-constexpr int kMostCells = 4096;
 /// Points this far below the highest of their cell belong to the same surface.
 constexpr double kSurfaceDepth_m = 0.3;
 /// Where points are scattered at random, three a cell leave one cell in twenty empty.
@@ -206,12 +205,12 @@ Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
     }
   }
   const Eigen::Vector2d cells = CellsOf(extent, slad.grid.cell_m);
-  if (!(cells.maxCoeff() <= kMostCells)) {
+  if (!(cells.maxCoeff() <= GridSettings::kMostCells)) {
     const std::string far = DoubtOfFarPoints(points, extent);
     return UsageError(
-        WithNumbers("%.5g x %.5g cells needed, the limit is 4096 a side; use a larger "
+        WithNumbers("%.5g x %.5g cells needed, the limit is %.0f a side; use a larger "
                     "--cell-m",
-                    cells.x(), cells.y()) +
+                    cells.x(), cells.y(), GridSettings::kMostCells) +
         (far.empty() ? "" : ". " + far));
   }
   const GridGeometry g = CloseSingleGaps(points, GeometryOf(low, extent, slad.grid.cell_m), extent,

@@ -24,7 +24,7 @@ namespace palace {
 /// the settings' size, enlarged with a warning until the map fits, most cells hold a point, and
 /// those that chance left empty leave room for a lander. Degrees, points far from all others and
 /// such gaps are told in warnings. Thesis mode, and bounds that are given, keep the thesis's grid
-/// and plain means. No more than 4096 cells a side.
+/// and plain means. No more than GridSettings::kMostCells a side.
 Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
                                 std::optional<double> cell_m, SladSettings slad,
                                 std::vector<std::string>& warnings);

@@ -115,13 +115,13 @@ std::vector<Row> GridRows() {
           .Says("Rows of the maps, north to south. Where more is in view modern maps have up to "
                 "twice as many.")
           .Shown("", 0)
-          .Within(1, 4096)
+          .Within(1, GridSettings::kMostCells)
           .Usually(20, 400),
       Row("slad.grid_cols", "Least columns", kGrid, &GridSettings::cols)
           .Says("Columns of the maps, west to east. Where more is in view modern maps have up to "
                 "twice as many.")
           .Shown("", 0)
-          .Within(1, 4096)
+          .Within(1, GridSettings::kMostCells)
           .Usually(20, 400),
       Row("slad.cell_m", "Cell", kGrid, &GridSettings::cell_m)
           .Says("Side of a cell in modern mode.")

@@ -24,6 +24,8 @@ enum class BoundsMode : int { kData = 0, kGiven = 1, kFieldOfView = 2 };
 
 /// Where the maps lie, how fine they are, and which holes in them are filled.
 struct GridSettings {
+  static constexpr int kMostCells = 4096;  ///< along a side, of a map that is made here
+
   int rows = 100;
   int cols = 100;
   double cell_m = 0.15;  ///< modern mode; thesis mode derives it from the bounds

@@ -16,7 +16,6 @@ constexpr double kWidestView = 2;  // views up to twice the map's width keep the
 // Back only well inside, so that a view near the border does not toggle the map.
 constexpr double kWellInside = 0.8;
 constexpr int kStep_cells = 20;
-constexpr int kMostCells = 4096;  // along a side, as in the settings
 
 double MedianDepth(const TerrainPoints& points, const RigidTransform& X_WC) {
   std::vector<double> depths;
@@ -31,7 +30,8 @@ double MedianDepth(const TerrainPoints& points, const RigidTransform& X_WC) {
 int CellsAlong(double extent_m, double cell_m, int least, int now) {
   const double needed = std::min(extent_m / cell_m, kWidestView * least);
   const int held = kStep_cells * static_cast<int>(std::ceil(needed / kStep_cells));
-  const int most = std::min(static_cast<int>(kWidestView) * least, std::max(least, kMostCells));
+  const int most =
+      std::min(static_cast<int>(kWidestView) * least, std::max(least, GridSettings::kMostCells));
   const int wanted = std::clamp(held, least, most);
   return wanted < now && needed > kWellInside * now ? now : wanted;
 }
