@@ -57,12 +57,14 @@ struct Constant {
   std::string file, name, value;
 };
 
-/// A declaration of numbers that cannot change: constexpr, or const with a name like kThis.
+/// A declaration of numbers that cannot change: constexpr, or const with a name like kThis; also an
+/// array of a type of our own that holds nothing but numbers.
 const std::regex& Declaration() {
   static const std::regex pattern(
       R"(\b(constexpr|const)\s+(auto|float|double|bool|char|short|int|long|unsigned|std::size_t)"
       R"(|std::ptrdiff_t|std::u?int\d+_t|std::array(?:<\s*(?:float|double|int|std::u?int\d+_t))"
-      R"([^>]*>)?)\s+((\w+)\s*(?:\[[^\]]*\]\s*)*[={][^;]*);)");
+      R"([^>]*>)?|[A-Z]\w*(?=\s+k\w+\s*\[[^\]]*\]\s*=?\s*\{[\s\d.,{}eEfF-]*\};)))"
+      R"(\s+((\w+)\s*(?:\[[^\]]*\]\s*)*[={][^;]*);)");
   return pattern;
 }
 
@@ -271,6 +273,7 @@ constexpr int Twice(int i) { return 2 * i; }
 if constexpr (kLanes == 8) {
 }
 constexpr std::array<TerrainFlag, 2> kFlags = {kA, kB};
+constexpr Kind kKinds[] = {{kA, 1}, {kB, 2}};
 const double local = 2 * kGate;
 )";
 
@@ -284,6 +287,8 @@ TEST(Calibration, ANumberOutsideOfTheTableIsNamed) {
             "a.cpp: kNew_m = 1 has no row\n");
   EXPECT_EQ(Verdict(std::string(kSource) + "static const double kNew_m = 1;"),
             "a.cpp: kNew_m = 1 has no row\n");
+  EXPECT_EQ(Verdict(std::string(kSource) + "constexpr Scale kScales[] = {{4, 2.F}, {1, -4}};"),
+            "a.cpp: kScales = {4,2},{1,-4} has no row\n");
   EXPECT_EQ(Verdict(std::string(kSource) + "constexpr double kKnots[2] = {\n 1.F,\n 2.F};"),
             "a.cpp: kKnots = 1,2 has no row\n");
 }
