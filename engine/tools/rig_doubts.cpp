@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/core/median.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 
@@ -61,15 +62,14 @@ std::string DoubtOfHeight(const RangeMap& range) {
   if (below_m.empty() || !(said_m > 0)) {
     return "";
   }
-  const auto middle = below_m.begin() + static_cast<std::ptrdiff_t>(below_m.size() / 2);
-  std::nth_element(below_m.begin(), middle, below_m.end());
-  if (*middle<kGrossly * said_m&& * middle> said_m / kGrossly) {
+  const double median_m = UpperMedian(below_m);
+  if (median_m < kGrossly * said_m && median_m > said_m / kGrossly) {
     return "";
   }
   return WithNumbers(
       "by its pose the camera is %.3g m above the ground (down = 0), by stereo %.3g m "
       "(median); check the height of the pose, and fx_px and baseline_m of the rig",
-      said_m, *middle);
+      said_m, median_m);
 }
 
 }  // namespace palace

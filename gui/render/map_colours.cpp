@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/core/median.h"
 #include "engine/core/units.h"
 #include "gui/render/map_scale.h"
 
@@ -99,9 +100,7 @@ ValueRange ElevationRangeFor(const GridF& height_m) {
   if (known.empty()) {
     return MapRanges{}.elevation_m;
   }
-  const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
-  std::nth_element(known.begin(), middle, known.end());
-  const float low = std::round((*middle - 0.5F) * 2.0F) / 2.0F;
+  const float low = std::round((UpperMedian(known) - 0.5F) * 2.0F) / 2.0F;
   return {low, low + 2.0F};
 }
 

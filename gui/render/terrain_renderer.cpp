@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/median.h"
 #include "gui/render/map_colours.h"
 #include "shader_text.h"
 
@@ -25,9 +26,7 @@ std::optional<double> MedianHeight(const ElevationMap& map) {
   if (known.empty()) {
     return std::nullopt;
   }
-  const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
-  std::nth_element(known.begin(), middle, known.end());
-  return *middle;
+  return UpperMedian(known);
 }
 
 void PositionAttribute(const GlVertexArray& array, const GlBuffer& buffer) {

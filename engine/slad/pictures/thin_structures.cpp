@@ -59,13 +59,12 @@ class PieceMatcher {
     const float on_ground = Difference(0);
     const float found = errors_[std::size_t(best)];
     std::vector<float> sorted = errors_;
-    const auto quarter = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 4);
-    std::nth_element(sorted.begin(), quarter, sorted.end());
+    const float quarter = UpperQuantile(sorted, 4);
     piece.above_px = kLeastAbove_px + best * kStep_px;
     // A sharp minimum: even ground hidden by a line fits a whole range of disparities.
     const float aside =
         std::min(Difference(piece.above_px - kAside_px), Difference(piece.above_px + kAside_px));
-    return found < kOfGround * on_ground && found < kOfQuarter * *quarter &&
+    return found < kOfGround * on_ground && found < kOfQuarter * quarter &&
            found < kOfAside * aside;
   }
 

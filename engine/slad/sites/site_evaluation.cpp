@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/core/median.h"
 #include "engine/model/site_standing.h"
 #include "engine/slad/hazards/hazard_layers.h"
 #include "engine/slad/hazards/hidden_things.h"
@@ -92,12 +93,7 @@ double Known(float value) { return static_cast<double>(value); }
 /// What nine tenths of the cells reach; new ground at the rim must not pass for old.
 template <typename Value>
 Value OfMost(std::vector<Value>& values, Value without) {
-  if (values.empty()) {
-    return without;
-  }
-  const auto tenth = values.begin() + static_cast<std::ptrdiff_t>(values.size() / kNewCellsOneIn);
-  std::nth_element(values.begin(), tenth, values.end());
-  return *tenth;
+  return values.empty() ? without : UpperQuantile(values, kNewCellsOneIn);
 }
 
 /// Whether hardly anything too high or too deep can be hidden within the clear radius: what was not
