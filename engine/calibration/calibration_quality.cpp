@@ -9,6 +9,7 @@
 #include "engine/camera/alignment.h"
 #include "engine/camera/cahvor.h"
 #include "engine/core/check.h"
+#include "engine/core/rotation_vector.h"
 
 namespace palace {
 namespace {
@@ -16,12 +17,6 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMostOutliers = 0.25;  // share of one picture's points
 using LensMatrix = Eigen::Matrix<double, kLensSize, kLensSize>;
-
-Eigen::Matrix3d Cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 Eigen::Vector2d CellCentre(const Calibration& calibration, const GridF& map, int row, int column) {
   return {(column + 0.5) * calibration.width / map.cols() - 0.5,
@@ -155,7 +150,7 @@ GridF UncertaintyMap(const Calibration& calibration, int side, int rows, int col
       if (!at) {
         continue;
       }
-      const LensCell cell{at->by_lens, -at->by_point * Cross(*direction)};
+      const LensCell cell{at->by_lens, -at->by_point * CrossMatrix(*direction)};
       normal += cell.by_rotation.transpose() * cell.by_rotation;
       right += cell.by_rotation.transpose() * cell.by_lens;
       cells[{column, row}] = cell;
@@ -204,7 +199,7 @@ GridF DepthSigmaMap(const Calibration& calibration, double depth_m, int rows, in
           Eigen::Matrix<double, 4, kCameraSize>::Zero();
       by_camera.topRows<2>().leftCols<kLensSize>() = left->by_lens;
       by_camera.bottomRows<2>().middleCols<kLensSize>(kRightLens) = right->by_lens;
-      by_camera.bottomRows<2>().middleCols<3>(kRightRotation) = right->by_point * Cross(p_C1);
+      by_camera.bottomRows<2>().middleCols<3>(kRightRotation) = right->by_point * CrossMatrix(p_C1);
       by_camera.bottomRows<2>().middleCols<3>(kRightCentre) = -right->by_point * X_C1C0.R;
       // Pixels stay as observed, so the triangulated point takes up what the cameras are off.
       const Eigen::Matrix<double, 3, kCameraSize> point_by_camera =

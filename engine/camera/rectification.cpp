@@ -12,6 +12,7 @@
 #include "engine/camera/alignment.h"
 #include "engine/camera/cahvor.h"
 #include "engine/camera/grey_view.h"
+#include "engine/core/text.h"
 #include "engine/model/rig_limits.h"
 
 namespace palace {
@@ -25,10 +26,6 @@ struct StereoRectifier::Maps {
 };
 
 namespace {
-
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height);
-}
 
 bool HasDistortion(const RigCamera& camera) {
   return std::any_of(camera.distortion.begin(), camera.distortion.end(),
@@ -165,8 +162,8 @@ Result<RectifiedPair> StereoRectifier::Rectify(const StereoFrame& frame) const {
       return Ok();
     }
     return InvalidError(std::string("rectification: the ") + side + " picture is " +
-                        SizeText(image.width(), image.height()) + " px, the rig's camera is " +
-                        SizeText(width, height) + " px; check RIG.toml");
+                        SizeText(image.width(), image.height()) + ", the rig's camera is " +
+                        SizeText(width, height) + "; check RIG.toml");
   };
   for (const Status& status : {check(frame.left, left_width_, left_height_, "left"),
                                check(frame.right, right_width_, right_height_, "right")}) {

@@ -10,8 +10,8 @@
 #include "engine/camera/files/poses_file.h"
 #include "engine/capture/picture_file.h"
 #include "engine/capture/picture_order.h"
-#include "engine/capture/picture_size.h"
 #include "engine/capture/playback_turns.h"
+#include "engine/core/text.h"
 
 namespace palace {
 namespace {

@@ -1,10 +1,8 @@
 #include "engine/capture/picture_size.h"
 
-namespace palace {
+#include "engine/core/text.h"
 
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height) + " px";
-}
+namespace palace {
 
 Status CheckPictureSize(const ImageU8& picture, const PinholeCamera& camera,
                         const std::string& name, const std::string& remedy) {

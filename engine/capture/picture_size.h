@@ -9,9 +9,6 @@
 
 namespace palace {
 
-/// "640 x 480 px"
-std::string SizeText(int width, int height);
-
 /// The error names the picture by `name`, both sizes and `remedy`.
 Status CheckPictureSize(const ImageU8& picture, const PinholeCamera& camera,
                         const std::string& name, const std::string& remedy);

@@ -4,6 +4,7 @@
 
 #include "engine/capture/camera_address.h"
 #include "engine/capture/picture_size.h"
+#include "engine/core/text.h"
 
 namespace palace {
 namespace {

@@ -2,6 +2,12 @@
 
 namespace palace {
 
+Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
 Eigen::Matrix3d RotationFromVector(const Eigen::Vector3d& v) {
   const double angle = v.norm();
   return angle < 1e-15 ? Eigen::Matrix3d::Identity()

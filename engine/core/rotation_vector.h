@@ -7,6 +7,8 @@
 
 namespace palace {
 
+/// [v]x: [v]x p is the cross product of v and p.
+Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v);
 /// exp([v]x); the identity for a turn of less than 1e-15 rad.
 Eigen::Matrix3d RotationFromVector(const Eigen::Vector3d& v);
 /// Inverse of RotationFromVector; a turn by pi about either end of its axis.

@@ -17,6 +17,10 @@ std::string OrDash(const char* format, double value) {
 
 std::string NumberText(double value) { return WithNumbers("%.10g", value); }
 
+std::string SizeText(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height) + " px";
+}
+
 std::string Joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) {

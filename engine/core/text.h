@@ -14,6 +14,9 @@ std::string OrDash(const char* format, double value);
 /// As short as ten digits allow: "0.5", "15.24", "1e+20". For what a person wrote, said back.
 std::string NumberText(double value);
 
+/// "640 x 480 px".
+std::string SizeText(int width, int height);
+
 /// "a, b, c".
 std::string Joined(const std::vector<std::string>& words);
 

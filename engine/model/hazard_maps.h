@@ -63,4 +63,9 @@ inline bool CanBearLander(const HazardMaps& hazards, Cell cell) {
   return hazards.ground.at(cell) == GroundClass::kLandable;
 }
 
+/// What may hide within the clear radius; 0 where nobody asked (thesis mode, surveys).
+inline double HiddenAt(const HazardMaps& hazards, Cell cell) {
+  return hazards.hidden_things.empty() ? 0.0 : static_cast<double>(hazards.hidden_things.at(cell));
+}
+
 }  // namespace palace

@@ -7,6 +7,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "engine/core/text.h"
 #include "engine/model/half_size.h"
 #include "engine/stereo/disparity.h"
 #include "engine/stereo/faint_ground.h"
@@ -23,17 +24,13 @@ constexpr int kWidestWindow_px = 4096;
 constexpr double kSwapTestCoverage = 0.1;
 constexpr float kLeastDisparity_px = 0.1F;  // beyond it depth is not bounded by the picture
 
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height);
-}
-
 Status CheckInput(const ImageU8& left, const ImageU8& right, const PinholeCamera& camera,
                   double baseline_m, const DisparityWindow& window) {
   for (const ImageU8* image : {&left, &right}) {
     if (image->width() != camera.width || image->height() != camera.height) {
       return InvalidError("stereo: picture is " + SizeText(image->width(), image->height()) +
-                          " px, the rectified camera is " + SizeText(camera.width, camera.height) +
-                          " px; rectify the pair first");
+                          ", the rectified camera is " + SizeText(camera.width, camera.height) +
+                          "; rectify the pair first");
     }
   }
   if (!(baseline_m > 0) || !std::isfinite(baseline_m) || !(camera.fx_px > 0)) {
@@ -140,8 +137,8 @@ Result<StereoResult> StereoMatcher::Match(const ImageU8& left, const ImageU8& ri
        {filtered ? filtered->left.get() : &left, filtered ? filtered->right.get() : &right}) {
     if (image->width() != left.width() || image->height() != left.height()) {
       return InvalidError("stereo: the filtered picture is " +
-                          SizeText(image->width(), image->height()) + " px, the pair is " +
-                          SizeText(left.width(), left.height()) + " px");
+                          SizeText(image->width(), image->height()) + ", the pair is " +
+                          SizeText(left.width(), left.height()));
     }
   }
   SubpixelDisparity refined = MeasurePixels(

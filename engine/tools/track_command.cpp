@@ -14,7 +14,6 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/capture/picture_file.h"
-#include "engine/capture/picture_size.h"
 #include "engine/capture/single_pictures.h"
 #include "engine/core/command_line.h"
 #include "engine/core/files.h"

@@ -24,12 +24,6 @@ constexpr int kHuberIterations = 3;
 constexpr double kMinDepth_m = 0.05;
 constexpr double kBehind = 1e6;  // residual of a landmark behind the camera, in sigmas
 
-Matrix3d Skew(const Vector3d& v) {
-  Matrix3d S;
-  S << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return S;
-}
-
 /// One landmark under the present pose: residual and derivative, in sigmas.
 struct Term {
   Vector2d residual = Vector2d::Zero();
@@ -58,7 +52,7 @@ Term Evaluate(const GroundLandmark& landmark, const PinholeCamera& camera,
   by_point /= term.sigma_px;
   // p_C = R' (p - p_WC); turning R to R exp(d) moves p_C by p_C x d.
   term.jacobian.leftCols<3>() = -by_point * X_WC.R.transpose();
-  term.jacobian.rightCols<3>() = by_point * Skew(p_C);
+  term.jacobian.rightCols<3>() = by_point * CrossMatrix(p_C);
   return term;
 }
 

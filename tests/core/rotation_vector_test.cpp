@@ -27,6 +27,7 @@ TEST(RotationVector, GoesThereAndBack) {
 TEST(RotationVector, OfASmallTurnIsTheCrossProduct) {
   const Vector3d v(1e-7, -2e-7, 3e-7), p(4, 5, 6);
   EXPECT_LT((RotationFromVector(v) * p - p - v.cross(p)).norm(), 1e-12);
+  EXPECT_LT((CrossMatrix(v) * p - v.cross(p)).norm(), 1e-20);
   EXPECT_EQ(RotationFromVector(Vector3d::Zero()), Matrix3d(Matrix3d::Identity()));
   EXPECT_EQ(VectorFromRotation(Matrix3d::Identity()), Vector3d(Vector3d::Zero()));
 }

@@ -21,12 +21,6 @@ constexpr double kMedianPerSigma = 1.17741;    // median length of a 2-D normal 
 
 using PointByPose = Eigen::Matrix<double, 3, 6>;
 
-Eigen::Matrix3d Cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 RigidTransform CameraFromTarget(const RigEstimate& estimate, int side, std::size_t view) {
   return side == 0 ? estimate.X_C0T[view] : estimate.X_C0C1.Inverse() * estimate.X_C0T[view];
 }
@@ -128,14 +122,14 @@ class Bundle {
       const double weight =
           options_.robust ? 1 / (1 + error.squaredNorm() / (scale_px * scale_px)) : 1.0;
       PointByPose point_by_pose;
-      point_by_pose.leftCols<3>() = -R_CC0 * Cross(estimate.X_C0T[v].R * point.p_TQ);
+      point_by_pose.leftCols<3>() = -R_CC0 * CrossMatrix(estimate.X_C0T[v].R * point.p_TQ);
       point_by_pose.rightCols<3>() = R_CC0;
       const Eigen::Matrix<double, 2, 6> by_pose = at->by_point * point_by_pose;
       Eigen::Matrix<double, 2, kCount> by_camera;
       by_camera.template leftCols<kLensSize>() = at->by_lens;
       if constexpr (kSide == 1) {  // p_C1 = exp(-d) R^T (p_C0 - C): d p_C1 = [p_C1]x d
         by_camera.template middleCols<3>(kRightRotation - kRightLens) =
-            at->by_point * Cross(X_CT * point.p_TQ);
+            at->by_point * CrossMatrix(X_CT * point.p_TQ);
         by_camera.template middleCols<3>(kRightCentre - kRightLens) = -at->by_point * R_CC0;
       }
       n.U.block<kCount, kCount>(kFirst, kFirst) += weight * by_camera.transpose() * by_camera;

@@ -48,10 +48,6 @@ constexpr std::array<GroundClass, kAllReasons + 1> kClassOf = [] {
   return classes;
 }();
 
-double HiddenAt(const HazardMaps& hazards, Cell cell) {
-  return hazards.hidden_things.empty() ? 0.0 : static_cast<double>(hazards.hidden_things.at(cell));
-}
-
 /// Whether a touchdown on a cell without reasons keeps the limits of its mode, with so many things
 /// expected unseen around it.
 bool KeepsLimits(const HazardMaps& hazards, const SladSettings& settings, Cell cell,

@@ -65,11 +65,6 @@ class OffCentre {
   const RigidTransform X_CW_;
 };
 
-/// What may hide within the clear radius; 0 where nobody asked (thesis mode, surveys).
-double HiddenAt(const HazardMaps& hazards, Cell cell) {
-  return hazards.hidden_things.empty() ? 0.0 : static_cast<double>(hazards.hidden_things.at(cell));
-}
-
 }  // namespace
 
 double RankedRoom(double safe_distance_m, double hidden_things, double clear_radius_m) {
