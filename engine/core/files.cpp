@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <system_error>
 
@@ -55,6 +56,18 @@ Status WriteTextFile(const std::filesystem::path& path, const std::string& text)
                             "; choose a folder you may write to, with free space");
   }
   return Ok();
+}
+
+std::filesystem::path ConfigFolder() {
+  const auto absolute = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    return std::filesystem::path(value != nullptr && value[0] == '/' ? value : "");
+  };
+  if (const std::filesystem::path config = absolute("XDG_CONFIG_HOME"); !config.empty()) {
+    return config / "palace";
+  }
+  const std::filesystem::path home = absolute("HOME");
+  return home.empty() ? home : home / ".config" / "palace";
 }
 
 Status MakeFolder(const std::filesystem::path& folder) {

@@ -16,6 +16,10 @@ Result<std::string> ReadTextFile(const std::filesystem::path& path, std::size_t 
 /// Writes through a neighbour file, so that a full disk leaves no half file under the name.
 Status WriteTextFile(const std::filesystem::path& path, const std::string& text);
 
+/// Of this program's files of a user: palace in $XDG_CONFIG_HOME, or in ~/.config where that is not
+/// set or no absolute path (XDG Base Directory Specification); empty without either.
+std::filesystem::path ConfigFolder();
+
 /// With those above it. A folder that is there already is as good.
 Status MakeFolder(const std::filesystem::path& folder);
 

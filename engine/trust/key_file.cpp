@@ -15,6 +15,8 @@
 
 #include <sodium.h>
 
+#include "engine/core/files.h"
+
 namespace palace {
 namespace {
 
@@ -215,13 +217,8 @@ Status CheckFolder(const std::string& name, const fs::path& folder) {
 }  // namespace
 
 fs::path DefaultKeyFolder() {
-  const char* config = std::getenv("XDG_CONFIG_HOME");
-  if (config != nullptr && config[0] == '/') {
-    return fs::path(config) / "palace" / "keys";
-  }
-  const char* home = std::getenv("HOME");
-  return home != nullptr && home[0] == '/' ? fs::path(home) / ".config" / "palace" / "keys"
-                                           : fs::path();
+  const fs::path config = ConfigFolder();
+  return config.empty() ? config : config / "keys";
 }
 
 std::string WhyNoKeyName(const std::string& name) {

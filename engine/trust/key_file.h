@@ -27,7 +27,7 @@ struct NamedKey {
   SecretKey key;
 };
 
-/// $XDG_CONFIG_HOME/palace/keys, else ~/.config/palace/keys; empty where neither is set.
+/// keys in ConfigFolder (core/files.h); empty where there is none.
 std::filesystem::path DefaultKeyFolder();
 
 /// 1 to 40 letters, digits, '-', '_' and '.', not beginning with '.'. Empty when fine, else why

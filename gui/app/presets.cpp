@@ -1,6 +1,5 @@
 #include "gui/app/presets.h"
 
-#include <cstdlib>
 #include <system_error>
 
 #include "engine/core/files.h"
@@ -9,15 +8,7 @@
 namespace palace {
 namespace fs = std::filesystem;
 
-fs::path FirstPresetPath() {
-  if (const char* config = std::getenv("XDG_CONFIG_HOME"); config != nullptr && *config != '\0') {
-    return fs::path(config) / "palace" / "limits.toml";
-  }
-  if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0') {
-    return fs::path(home) / ".config" / "palace" / "limits.toml";
-  }
-  return "limits.toml";
-}
+fs::path FirstPresetPath() { return ConfigFolder() / "limits.toml"; }
 
 PresetLook LookAt(const fs::path& path, const Settings& now) {
   PresetLook look;

@@ -9,8 +9,8 @@
 
 namespace palace {
 
-/// Where a first preset is offered: limits.toml in $XDG_CONFIG_HOME/palace, or ~/.config/palace,
-/// or, without either, the current folder.
+/// Where a first preset is offered: limits.toml in ConfigFolder, or, without one, in the current
+/// folder.
 std::filesystem::path FirstPresetPath();
 
 /// What is at `path`, against the limits as they are now.

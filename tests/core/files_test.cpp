@@ -1,7 +1,9 @@
 // Files are read whole, and written whole or not at all.
 #include "engine/core/files.h"
 
+#include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -73,6 +75,39 @@ TEST_F(Files, WhatCannotBeWrittenIsNamedAndKeepsItsOldText) {
   ASSERT_FALSE(through.ok());
   EXPECT_NE(through.error().message.find("Not a directory"), std::string::npos)
       << through.error().message;
+}
+
+/// Sets a variable of the environment, null to none, and what it was at the end.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* before = std::getenv(name)) {
+      before_ = before;
+    }
+    Set(value);
+  }
+  ~Variable() { Set(before_ ? before_->c_str() : nullptr); }
+  Variable(const Variable&) = delete;
+
+ private:
+  void Set(const char* value) { value != nullptr ? setenv(name_, value, 1) : unsetenv(name_); }
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+TEST(ConfigFolder, IsAnAbsolutePathOrNone) {
+  const struct {
+    const char *config, *home, *folder;
+  } rows[] = {{"/c", "/h", "/c/palace"},
+              {"c", "/h", "/h/.config/palace"},
+              {"", "/h", "/h/.config/palace"},
+              {nullptr, "/h", "/h/.config/palace"},
+              {nullptr, "h", ""},
+              {"c", nullptr, ""}};
+  for (const auto& row : rows) {
+    const Variable config("XDG_CONFIG_HOME", row.config), home("HOME", row.home);
+    EXPECT_EQ(ConfigFolder(), fs::path(row.folder)) << row.folder;
+  }
 }
 
 }  // namespace
