@@ -52,7 +52,7 @@ void RefineCorners(const cv::Mat& grey, int columns, int rows, std::vector<cv::P
   }
 }
 
-std::string SizeText(int a, int b) {
+std::string GridText(int a, int b) {
   return std::to_string(std::max(a, b)) + " x " + std::to_string(std::min(a, b));
 }
 
@@ -79,7 +79,7 @@ Error WrongSize(const std::string& seen, int columns, int rows) {
 
 Error NotFound(const cv::Size& largest, int columns, int rows) {
   return WrongSize(largest.empty() ? "no chessboard found"
-                                   : "found " + SizeText(largest.width, largest.height) +
+                                   : "found " + GridText(largest.width, largest.height) +
                                          " inner corners at most",
                    columns, rows);
 }
@@ -110,7 +110,7 @@ Result<std::vector<Eigen::Vector2d>> FindChessboardCorners(const ImageU8& pictur
     // fail on different pictures must both find nothing before it is spared.
     if (!cv::checkChessboard(grey, size)) {
       const cv::Size largest = LargestBoard(grey);
-      if (SizeText(largest.width, largest.height) != SizeText(columns, rows)) {
+      if (GridText(largest.width, largest.height) != GridText(columns, rows)) {
         return NotFound(largest, columns, rows);
       }
     }
@@ -130,7 +130,7 @@ Result<std::vector<Eigen::Vector2d>> FindChessboardCorners(const ImageU8& pictur
   MakeRightHanded(corners, columns, rows);
   const ChessboardExtent whole = ExtentOfChessboard(picture, corners, columns, rows);
   if (whole.columns != columns || whole.rows != rows) {
-    return WrongSize("found " + SizeText(whole.columns, whole.rows) + " inner corners", columns,
+    return WrongSize("found " + GridText(whole.columns, whole.rows) + " inner corners", columns,
                      rows);
   }
   return corners;

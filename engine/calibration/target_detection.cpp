@@ -11,6 +11,7 @@
 #include "engine/calibration/dot_lattice.h"
 #include "engine/calibration/grid_dots.h"
 #include "engine/core/median.h"
+#include "engine/core/text.h"
 
 namespace palace {
 namespace {
@@ -28,7 +29,7 @@ struct Placement {
   int j0 = 0;
 };
 
-std::string SizeText(int columns, int rows) {
+std::string GridText(int columns, int rows) {
   return std::to_string(columns) + " x " + std::to_string(rows);
 }
 
@@ -62,8 +63,8 @@ Result<Placement> PlaceByExtent(const DotLattice& lattice, const CalibrationTarg
   const LatticeExtent seen = ExtentOf(lattice);
   const Error mismatch = InvalidError(
       "found " +
-      SizeText(std::max(seen.columns(), seen.rows()), std::min(seen.columns(), seen.rows())) +
-      " dots, the target has " + SizeText(target.columns, target.rows) +
+      GridText(std::max(seen.columns(), seen.rows()), std::min(seen.columns(), seen.rows())) +
+      " dots, the target has " + GridText(target.columns, target.rows) +
       "; the board must be whole in the picture, and TARGET.toml must describe it");
   std::optional<Placement> best;
   int most = 0, second = 0;
@@ -93,7 +94,7 @@ Result<Placement> PlaceByExtent(const DotLattice& lattice, const CalibrationTarg
     return mismatch;
   }
   if (second == most) {
-    return InvalidError("the grid's place is ambiguous: " + SizeText(seen.columns(), seen.rows()) +
+    return InvalidError("the grid's place is ambiguous: " + GridText(seen.columns(), seen.rows()) +
                         " dots with gaps; show every border row and column, or use a target with "
                         "orientation marks");
   }
@@ -158,8 +159,8 @@ Result<Placement> PlaceByMarks(const DotLattice& lattice, const std::vector<Dot>
   }
   if (LargerThan(TurnLattice(lattice, best->quarters), target, best->i0, best->j0)) {
     const LatticeExtent seen = ExtentOf(lattice);
-    return InvalidError("found " + SizeText(seen.columns(), seen.rows()) +
-                        " dots, the target has " + SizeText(target.columns, target.rows) +
+    return InvalidError("found " + GridText(seen.columns(), seen.rows()) +
+                        " dots, the target has " + GridText(target.columns, target.rows) +
                         "; TARGET.toml must describe the board");
   }
   return *best;
@@ -261,7 +262,7 @@ Result<TargetObservation> PlaceGrid(const ImageU8& picture, const CalibrationTar
                                     const FoundGrid& grid) {
   if (grid.lattice.empty()) {
     return InvalidError("no grid of dots found, the target has " +
-                        SizeText(target.columns, target.rows) + " dark dots on a bright board");
+                        GridText(target.columns, target.rows) + " dark dots on a bright board");
   }
   const auto placement = target.marks.empty() ? PlaceByExtent(grid.lattice, target)
                                               : PlaceByMarks(grid.lattice, grid.dots, target);
@@ -301,7 +302,7 @@ Result<TargetObservation> DetectTarget(const ImageU8& picture, const Calibration
   if (picture.width() < kLeastSide_px || picture.height() < kLeastSide_px ||
       static_cast<double>(picture.width()) * picture.height() > kMostPixels) {
     return InvalidError("the picture is " + SizeText(picture.width(), picture.height()) +
-                        " px; sides from 16 px and at most 100 megapixels are searched");
+                        "; sides from 16 px and at most 100 megapixels are searched");
   }
   return target.kind == TargetKind::kDots ? DetectDots(picture, target)
                                           : DetectChessboard(picture, target);

@@ -64,7 +64,7 @@ inline bool CanBearLander(const HazardMaps& hazards, Cell cell) {
 }
 
 /// What may hide within the clear radius; 0 where nobody asked (thesis mode, surveys).
-inline double HiddenAt(const HazardMaps& hazards, Cell cell) {
+inline double HiddenThingsAt(const HazardMaps& hazards, Cell cell) {
   return hazards.hidden_things.empty() ? 0.0 : static_cast<double>(hazards.hidden_things.at(cell));
 }
 

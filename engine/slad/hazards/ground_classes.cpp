@@ -56,7 +56,7 @@ bool KeepsLimits(const HazardMaps& hazards, const SladSettings& settings, Cell c
     return true;
   }
   // The layer holds what hides around the touchdown itself.
-  const double own = HiddenAt(hazards, cell);
+  const double own = HiddenThingsAt(hazards, cell);
   const double probability = static_cast<double>(hazards.safe_probability.at(cell)) *
                              (hidden == own ? 1 : std::exp(own - hidden));
   return hazards.slope_rad.at(cell) <= static_cast<float>(Rad(settings.limits.max_slope_deg)) &&
@@ -69,7 +69,7 @@ bool KeepsLimits(const HazardMaps& hazards, const SladSettings& settings, Cell c
 
 /// Whether a touchdown on a cell without reasons breaks a limit, whatever hides.
 bool Breaks(const HazardMaps& hazards, const SladSettings& settings, Cell cell) {
-  return !KeepsLimits(hazards, settings, cell, HiddenAt(hazards, cell)) &&
+  return !KeepsLimits(hazards, settings, cell, HiddenThingsAt(hazards, cell)) &&
          !KeepsLimits(hazards, settings, cell, 0);
 }
 
@@ -134,7 +134,7 @@ void ClassifyCells(const SladSettings& settings, HazardMaps& hazards) {
         if (!(distance_m[c] >= touched_m) && !(distance_m[c] >= clear_m)) {
           continue;
         }
-        const double hidden = HiddenAt(hazards, cell);
+        const double hidden = HiddenThingsAt(hazards, cell);
         const bool keeps = KeepsLimits(hazards, settings, cell, hidden);
         if (distance_m[c] >= clear_m) {
           ground[c] = keeps ? GroundClass::kLandable : GroundClass::kFootprint;
@@ -172,7 +172,7 @@ void ClassifyCells(const SladSettings& settings, HazardMaps& hazards) {
 
 Cell WorstTouchdown(const HazardMaps& hazards, const SladSettings& settings, Cell cell) {
   if (hazards.ground.at(cell) != GroundClass::kFootprint ||
-      !KeepsLimits(hazards, settings, cell, HiddenAt(hazards, cell))) {
+      !KeepsLimits(hazards, settings, cell, HiddenThingsAt(hazards, cell))) {
     return cell;
   }
   const Touchdowns touchdowns(settings, hazards.geometry);

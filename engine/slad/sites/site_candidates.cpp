@@ -91,7 +91,7 @@ SiteCandidates::SiteCandidates(const ElevationMap& map, const HazardMaps& hazard
           continue;
         }
         const double distance_m =
-            RankedRoom(static_cast<double>(distances_m[c]), HiddenAt(hazards, cell), clear_m);
+            RankedRoom(static_cast<double>(distances_m[c]), HiddenThingsAt(hazards, cell), clear_m);
         const double cost = SmoothedCost(hazards.cost, cell);
         const double tie = -kMiddleWeight_cells * off_centre.At(map, cell);
         const double score = farthest ? distance_m + cell_m * (kCostWeight_cells * (1 - cost) + tie)
