@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/slad/sites/rank_reasons.h"
 #include "engine/slad/slad.h"
 #include "tests/slad/worlds.h"
 

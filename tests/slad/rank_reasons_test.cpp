@@ -1,11 +1,12 @@
 // Order and reasons of a list agree: where the order is not what figures suggest, the reason says
 // it.
+#include "engine/slad/sites/rank_reasons.h"
+
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "engine/model/site_standing.h"
-#include "engine/slad/hazards/explanation.h"
 #include "engine/slad/sites/site_candidates.h"
 
 namespace palace {

@@ -9,7 +9,7 @@
 #include "engine/core/units.h"
 #include "engine/slad/hazards/ground_classes.h"
 #include "engine/slad/hazards/hazard_layers.h"
-#include "engine/slad/sites/site_figures.h"
+#include "engine/slad/hazards/site_figures.h"
 
 namespace palace {
 namespace {

@@ -1,4 +1,5 @@
-// Why each site has its rank, in words.
+#include "engine/slad/sites/rank_reasons.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -6,8 +7,8 @@
 
 #include "engine/core/shown_difference.h"
 #include "engine/core/text.h"
+#include "engine/model/cell_explanation.h"
 #include "engine/model/site_standing.h"
-#include "engine/slad/hazards/explanation.h"
 #include "engine/slad/sites/site_candidates.h"
 
 namespace palace {

@@ -9,8 +9,8 @@
 #include "engine/model/site_standing.h"
 #include "engine/slad/hazards/hazard_layers.h"
 #include "engine/slad/hazards/hidden_things.h"
+#include "engine/slad/hazards/site_figures.h"
 #include "engine/slad/hazards/touchdown.h"
-#include "engine/slad/sites/site_figures.h"
 #include "engine/slad/terrain/air_seen.h"
 
 namespace palace {

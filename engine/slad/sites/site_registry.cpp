@@ -8,8 +8,8 @@
 #include <opencv2/core.hpp>
 
 #include "engine/model/site_standing.h"
-#include "engine/slad/hazards/explanation.h"
 #include "engine/slad/sites/none_reason.h"
+#include "engine/slad/sites/rank_reasons.h"
 #include "engine/slad/sites/site_evaluation.h"
 #include "engine/slad/sites/site_ranking.h"
 #include "engine/slad/terrain/sense_check.h"

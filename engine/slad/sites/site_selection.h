@@ -32,7 +32,7 @@ struct SiteContext {
 /// the smoothed cost. In modern mode kFarthest takes the middle of the touching cells within 3/4 of
 /// a cell of the best score. Sites whose straight approach is blocked come after those where it is
 /// clear, and last those that no sector of approach is clear to. Sites lie at least site_spacing_m
-/// apart. Each has the reason for its rank (GiveReasons, explanation.h) and, in this order, a
+/// apart. Each has the reason for its rank (GiveReasons, rank_reasons.h) and, in this order, a
 /// letter and an id. Pixels come from forward projection (erratum E17); NaN behind the camera. Of
 /// one map; what the maps of a flight together say is SiteRegistry's.
 SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,

@@ -1,4 +1,4 @@
-#include "engine/slad/sites/site_figures.h"
+#include "engine/slad/hazards/site_figures.h"
 
 #include <cmath>
 
