@@ -248,7 +248,8 @@ const std::set<std::string>& AlgorithmRooms() {
       "engine/model",  "engine/camera", "engine/report",   "engine/calibration",
       "engine/stereo", "engine/slad",   "engine/tracking", "engine/navigation",
       "engine/flight", "engine/trust",  "engine/mission",  "engine/world",
-      "engine/survey", "gui/panels",    "gui/widgets"};
+      "engine/survey", "engine/search", "engine/geodata",  "gui/panels",
+      "gui/widgets"};
   return rooms;
 }
 
