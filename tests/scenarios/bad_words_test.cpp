@@ -54,7 +54,8 @@ INSTANTIATE_TEST_SUITE_P(
                  H({"--set", "slad.max_slope_deg=steep"}),
                  2,
                  {"steep", "number"}},
-        BadInput{"NoSettingsFile", true, H({"--settings", "no.toml"}), 2, {"no.toml", "path"}},
+        BadInput{
+            "NoSettingsFile", true, H({"--settings", "no.toml"}), 2, {"no.toml", "check the name"}},
         BadInput{"SettingsUnknownKey",
                  true,
                  H({"--settings", "colour.toml"}),
