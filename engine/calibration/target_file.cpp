@@ -51,11 +51,12 @@ class TargetTable {
     if (node == nullptr) {
       return 0;
     }
-    if (!node->is_number()) {
+    const std::optional<double> number = NumberOfToml(*node);
+    if (!number) {
       Fail(key, " must be a number");
       return 0;
     }
-    const double value = *node->value<double>();
+    const double value = *number;
     if (!(value >= least && value <= most)) {
       Fail(key, " = " + NumberText(value) + " is outside " + NumberText(least) + " .. " +
                     NumberText(most) + "; " + remedy);

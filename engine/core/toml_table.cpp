@@ -140,11 +140,12 @@ const toml::node* TomlTable::Required(const char* key) {
 }
 
 double TomlTable::ReadNumber(const toml::node& node, const char* key, const NumberLimits& limits) {
-  if (!node.is_number()) {
+  const std::optional<double> number = NumberOfToml(node);
+  if (!number) {
     Fail(LineOf(node), Name(key) + " must be a number");
     return 0;
   }
-  const double value = *node.value<double>();
+  const double value = *number;
   if (!(value >= limits.least && value <= limits.greatest)) {
     Fail(LineOf(node), Name(key) + " = " + NumberText(value) + " is outside " +
                            NumberText(limits.least) + " .. " + NumberText(limits.greatest) + "; " +

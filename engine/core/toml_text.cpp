@@ -1,6 +1,7 @@
 #include "engine/core/toml_text.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace palace {
@@ -68,6 +69,13 @@ Result<toml::table> ParseToml(std::string_view text, const std::string& name) {
     return letters.error();
   }
   return Parse(text, name);
+}
+
+std::optional<double> NumberOfToml(const toml::node& node) {
+  if (const auto whole = node.value_exact<std::int64_t>()) {
+    return static_cast<double>(*whole);
+  }
+  return node.value_exact<double>();
 }
 
 }  // namespace palace

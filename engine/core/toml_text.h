@@ -9,6 +9,7 @@
 // reports the same as an error two lines later. Files are input: never abort on them.
 #define TOML_ASSERT(expr) static_assert(true)
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,5 +22,9 @@ namespace palace {
 /// kInvalid with `name` and line for what is no TOML, and for a letter outside ASCII outside of
 /// strings and comments.
 Result<toml::table> ParseToml(std::string_view text, const std::string& name);
+
+/// A number of the file. Nothing for what is no number. A whole number that no double holds exactly
+/// (beyond 2^53, of which toml++'s own value<double>() tells nothing) is the nearest one.
+std::optional<double> NumberOfToml(const toml::node& node);
 
 }  // namespace palace

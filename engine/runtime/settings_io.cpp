@@ -77,7 +77,7 @@ Result<double> NumberOf(const SettingInfo& info, const toml::node& node) {
     return InvalidError(info.name + " = " + Written(node) +
                         " is not one of: " + Joined(info.words));
   }
-  if (const auto number = node.value<double>(); number && node.is_number()) {
+  if (const std::optional<double> number = NumberOfToml(node)) {
     return *number;
   }
   return InvalidError(info.name + " = " + Written(node) + " is not a number");
@@ -91,11 +91,13 @@ Status SetUpVector(Settings& settings, const toml::node& node) {
                         " is not three numbers, e.g. [0, 0, -1]");
   }
   for (int i = 0; i < 3; ++i) {
-    up[i] = array->get(static_cast<std::size_t>(i))->value<double>().value_or(NAN);
+    up[i] = NumberOfToml(*array->get(static_cast<std::size_t>(i))).value_or(NAN);
   }
-  if (!up.allFinite() || up.norm() < 1e-9 || up.z() >= 0) {
+  constexpr double kLongest = 1e6;  // a direction; squares of longer ones overflow
+  if (!(up.cwiseAbs().maxCoeff() <= kLongest) || up.norm() < 1e-9 || up.z() >= 0) {
     return InvalidError("slad.up_vector_ned = " + Written(node) +
-                        " is not finite or does not point up (third number below 0)");
+                        " must be three numbers from -1e6 to 1e6 that point up (the third below "
+                        "0)");
   }
   up.normalize();
   const double tilt = std::atan2(std::hypot(up.x(), up.y()), -up.z());

@@ -6,6 +6,18 @@
 namespace palace {
 namespace {
 
+// toml++ tells no double of a whole number that none holds exactly.
+TEST(TomlText, NumbersAreToldHoweverLargeTheyAre) {
+  const toml::table table = *ParseToml(
+      "a = 9007199254740993\nb = -9223372036854775807\nc = 3\nd = 2.5\ne = \"3\"\nf = true", "t");
+  EXPECT_EQ(NumberOfToml(*table.get("a")), 9007199254740992.0);
+  EXPECT_EQ(NumberOfToml(*table.get("b")), -9223372036854775808.0);
+  EXPECT_EQ(NumberOfToml(*table.get("c")), 3.0);
+  EXPECT_EQ(NumberOfToml(*table.get("d")), 2.5);
+  EXPECT_FALSE(NumberOfToml(*table.get("e")));
+  EXPECT_FALSE(NumberOfToml(*table.get("f")));
+}
+
 TEST(TomlText, LettersOutsideAsciiAreRefusedWhereKeysStand) {
   struct Row {
     const char* text;

@@ -117,6 +117,8 @@ TEST(VehicleFile, MistakesAreNamed) {
        "mass_kg.value = 0 is outside 0.1 .. 2000; give kilograms"},
       {"not a number", "base_size_m = 3.6", "base_size_m = nan",
        "airframe.base_size_m = nan is outside 0.2 .. 20"},
+      {"a whole number that no double holds", "base_size_m = 3.6", "base_size_m = 9007199254740993",
+       "airframe.base_size_m = 9.007199255e+15 is outside 0.2 .. 20"},
       {"a text for a number", "base_size_m = 3.6", "base_size_m = \"3.6\"",
        "airframe.base_size_m must be a number"},
       {"gear wider than the vehicle", "base_size_m = 3.6", "base_size_m = 1.4",
