@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <system_error>
+#include <utility>
 
 #include "engine/core/plain_text.h"
+#include "engine/core/text.h"
 #include "engine/journal/log_index.h"
 #include "engine/journal/log_writer.h"
+#include "engine/journal/sidecar.h"
 #include "engine/wire/convert.h"
 
 namespace palace {
@@ -14,14 +18,15 @@ namespace {
 
 constexpr std::size_t kMostFaultEvents = 1000;  // told of one log
 
-/// Copies the readable events that `keep` wants.
-Result<CopiedLog> CopyEvents(const LogFile& file, const LogIndex& index,
-                             const std::filesystem::path& out,
-                             const std::function<bool(const LogEntry&)>& keep) {
-  Result<LogWriter> writer = LogWriter::Create(out);
-  if (!writer) {
-    return writer.error();
-  }
+void RemoveLog(const std::filesystem::path& log) {
+  std::error_code ignored;
+  std::filesystem::remove(log, ignored);
+  std::filesystem::remove(SidecarPath(log), ignored);
+}
+
+/// Copies the readable events that `keep` wants. Whatever fails, closed or not.
+Result<CopiedLog> CopyInto(LogWriter writer, const LogFile& file, const LogIndex& index,
+                           const std::function<bool(const LogEntry&)>& keep) {
   CopiedLog copied;
   for (const LogEntry& entry : index.entries) {
     if (!keep(entry)) {
@@ -29,16 +34,54 @@ Result<CopiedLog> CopyEvents(const LogFile& file, const LogIndex& index,
     }
     const Result<WireMessage> message = ReadEvent(file, entry, index.channels);
     copied.left_out += message ? 0 : 1;
-    const Status written = message ? writer->Write(*message) : Ok();
+    const Status written = message ? writer.Write(*message) : Ok();
     if (!written) {
       return written.error();
     }
   }
-  const Status closed = writer->Close();
+  const Status closed = writer.Close();
   if (!closed) {
     return closed.error();
   }
-  copied.events = writer->events();
+  copied.events = writer.events();
+  return copied;
+}
+
+/// Into a neighbour of `out`, which takes the name when it is whole: of a copy that was ended, or
+/// found the disk full, nothing says that it is a log.
+Result<CopiedLog> CopyEvents(const LogFile& file, const LogIndex& index,
+                             const std::filesystem::path& out,
+                             const std::function<bool(const LogEntry&)>& keep) {
+  std::error_code error;
+  for (const std::filesystem::path& name : {out, SidecarPath(out)}) {
+    if (std::filesystem::exists(name, error)) {
+      return UnavailableError(
+          name.string() + ": it exists already; logs are never overwritten, name another --out");
+    }
+  }
+  std::filesystem::path part = out;
+  part += ".part";
+  RemoveLog(part);
+  Result<LogWriter> writer = LogWriter::Create(part);
+  if (!writer) {
+    return writer.error();
+  }
+  const Result<CopiedLog> copied = CopyInto(std::move(*writer), file, index, keep);
+  if (!copied || copied->events == 0) {
+    RemoveLog(part);
+    return copied ? Result<CopiedLog>(UsageError(
+                        out.string() + ": not written, no event that is wanted can be read"))
+                  : copied;
+  }
+  // The sidecar first: a log without its checksums looks whole.
+  std::filesystem::rename(SidecarPath(part), SidecarPath(out), error);
+  if (!error) {
+    std::filesystem::rename(part, out, error);
+  }
+  if (error) {
+    RemoveLog(part);
+    return UnavailableError(out.string() + ": cannot take its name (" + error.message() + ")");
+  }
   return copied;
 }
 
@@ -50,6 +93,14 @@ Timestamp StartOf(const LogIndex& index) {
     }
   }
   return {};
+}
+
+Timestamp EndOf(const LogIndex& index) {
+  Timestamp end;
+  for (const LogEntry& entry : index.entries) {
+    end = std::max(end, entry.time);
+  }
+  return end;
 }
 
 /// What the log says was injected into a simulated flight. Its words may be anybody's.
@@ -131,8 +182,8 @@ Result<CopiedLog> RepairLog(const std::filesystem::path& log, const std::filesys
 Result<CopiedLog> CutLog(const std::filesystem::path& log, const std::filesystem::path& out,
                          double from_s, double to_s) {
   if (!(from_s <= to_s)) {
-    return UsageError("the cut runs from " + std::to_string(from_s) + " s to " +
-                      std::to_string(to_s) + " s; give --from-s below --to-s");
+    return UsageError("the cut runs from " + NumberText(from_s) + " s to " + NumberText(to_s) +
+                      " s; give --from-s below --to-s");
   }
   const Result<LogFile> file = LogFile::Open(log);
   if (!file) {
@@ -143,6 +194,11 @@ Result<CopiedLog> CutLog(const std::filesystem::path& log, const std::filesystem
     return index.error();
   }
   const Timestamp start = StartOf(*index);
+  const double last_s = index->entries.empty() ? 0 : SecondsBetween(start, EndOf(*index));
+  if (from_s > last_s || to_s < 0) {
+    return UsageError("the cut runs from " + NumberText(from_s) + " s to " + NumberText(to_s) +
+                      " s, the log from 0 to " + NumberText(last_s) + " s");
+  }
   return CopyEvents(*file, *index, out, [&](const LogEntry& entry) {
     const double at_s = SecondsBetween(start, entry.time);
     return at_s >= from_s && at_s <= to_s;

@@ -40,11 +40,12 @@ struct CopiedLog {
   std::uint64_t left_out = 0;  ///< wanted, but the bytes differ from their checksum
 };
 
-/// Writes every readable event to a new log with a fresh sidecar.
+/// Writes every readable event to a new log with a fresh sidecar, which has its name only when it
+/// is whole. Errors: `out` exists, cannot be written, or would hold nothing.
 Result<CopiedLog> RepairLog(const std::filesystem::path& log, const std::filesystem::path& out);
 
-/// Writes the events from `from_s` to `to_s`, seconds after the first event, to a new log: whole
-/// passes of the engine where times are those of bundles.
+/// Likewise the events from `from_s` to `to_s`, seconds after the first event: whole passes of the
+/// engine where times are those of bundles. An error as well where the log has none of that time.
 Result<CopiedLog> CutLog(const std::filesystem::path& log, const std::filesystem::path& out,
                          double from_s, double to_s);
 

@@ -20,13 +20,13 @@ Trouble TroubleOf(int code) {
   switch (code) {
     case ENOSPC:
     case EDQUOT:
-      return {"the disk is full", "free space or record elsewhere with --record DIR"};
+      return {"the disk is full", "free space or write elsewhere"};
     case EACCES:
     case EPERM:
     case EROFS:
-      return {"the folder cannot be written", "choose another with --record DIR"};
+      return {"the folder cannot be written", "choose another"};
     case EEXIST:
-      return {"it exists already", "recordings are never overwritten"};
+      return {"it exists already", "logs are never overwritten"};
     default:
       return {std::strerror(code), "check the folder and its permissions"};
   }

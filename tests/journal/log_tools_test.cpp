@@ -19,6 +19,22 @@ TEST_F(ReplayTest, CutKeepsWholeBundlesAndReplays) {
   }
 }
 
+TEST_F(ReplayTest, CutOfATimeThatTheLogHasNotIsRefusedAndLeavesNothing) {
+  const std::filesystem::path out = folder_ / "cut.lcm";
+  for (const auto& [from_s, to_s] : {std::pair(100.0, 200.0), {-5.0, -1.0}, {0.351, 0.352}}) {
+    const auto cut = CutLog(flight_.log, out, from_s, to_s);
+    ASSERT_FALSE(cut.ok()) << from_s;
+    EXPECT_EQ(cut.error().code, ErrorCode::kUsage);
+    EXPECT_FALSE(std::filesystem::exists(out)) << from_s;
+    EXPECT_FALSE(std::filesystem::exists(out.string() + ".part")) << from_s;
+  }
+  ASSERT_TRUE(CutLog(flight_.log, out, 0.35, 0.75).ok());
+  const auto bytes = ReadBytes(out);
+  EXPECT_FALSE(CutLog(flight_.log, out, 0.35, 0.55).ok());
+  EXPECT_EQ(ReadBytes(out), bytes) << "never overwritten";
+  EXPECT_EQ(VerifyLog(*LogFile::Open(out))->report.unchecked, 0u) << "the sidecar came along";
+}
+
 TEST_F(ReplayTest, RepairKeepsEveryReadableEvent) {
   auto bytes = ReadBytes(flight_.log);
   const std::size_t events = BuildIndex(*LogFile::Open(flight_.log))->entries.size();
