@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 
 #include <CLI/CLI.hpp>
 
@@ -30,7 +31,7 @@ struct ThingsOptions {
 
   std::string Setup() const {
     std::string text = "heights";
-    for (const double height_m : heights_m) {
+    for (const double height_m : EachHeight()) {
       text += " " + CsvNumber(height_m);
     }
     text += " m, sizes times " + CsvNumber(size);
@@ -40,6 +41,8 @@ struct ThingsOptions {
     }
     return text;
   }
+  /// One that is given twice is asked once, or its field counted twice.
+  std::set<double> EachHeight() const { return {heights_m.begin(), heights_m.end()}; }
   bool Asks(ThingKind kind) const {
     return only.empty() || std::find(only.begin(), only.end(), NameOf(kind)) != only.end();
   }
@@ -140,7 +143,7 @@ Result<std::vector<TrialRow>> RunTrial(const ThingsOptions& options, std::uint64
       continue;
     }
     const ThingField field = MakeThingField(kind, options.size, seed);
-    for (const double height_m : options.heights_m) {
+    for (const double height_m : options.EachHeight()) {
       ViewPlan plan = DrawViewPlan(NameOf(kind), seed);
       plan.height_m = height_m;
       const KeptPictures kept =

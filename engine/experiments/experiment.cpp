@@ -7,6 +7,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -63,6 +64,22 @@ Result<fs::path> CsvOf(const fs::path& path, const std::vector<Experiment>& expe
   return path / found.front();
 }
 
+/// What an option names: a file, or those of a folder of data. (Other folders are written to.)
+std::set<fs::path> FilesNamed(const CLI::Option& option, const std::string& value) {
+  std::error_code error;
+  std::set<fs::path> files;
+  if (fs::is_regular_file(value, error)) {
+    files.insert(value);
+  } else if (option.check_lname("data") && fs::is_directory(value, error)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(value, error)) {
+      if (entry.is_regular_file(error)) {
+        files.insert(entry.path());
+      }
+    }
+  }
+  return files;
+}
+
 /// " files 3f2a9c", of the names and bytes of all files that the options of a run name, so that a
 /// run does not go on with an edited one; empty where they name none.
 std::string InputsOf(const CLI::App& verb) {
@@ -70,10 +87,9 @@ std::string InputsOf(const CLI::App& verb) {
   bool any = false;
   for (const CLI::Option* option : verb.get_options()) {
     for (const std::string& value : option->results()) {
-      std::error_code error;
-      if (fs::is_regular_file(value, error)) {
-        std::ifstream file(value, std::ios::binary);
-        hash.Add(value);
+      for (const fs::path& name : FilesNamed(*option, value)) {
+        std::ifstream file(name, std::ios::binary);
+        hash.Add(name.string());
         hash.Add(std::string{std::istreambuf_iterator<char>(file), {}});
         any = true;
       }

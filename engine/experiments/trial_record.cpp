@@ -1,8 +1,12 @@
 #include "engine/experiments/trial_record.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <charconv>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <string_view>
@@ -15,7 +19,7 @@ namespace palace {
 namespace {
 
 constexpr std::string_view kDone = "# trial ";
-constexpr std::string_view kDoneEnd = " done";
+constexpr std::string_view kDoneEnd = " done ";  // a check sum of its rows follows
 
 /// Of the program that runs: another build may count otherwise.
 std::string ProgramHash() {
@@ -56,16 +60,24 @@ std::vector<std::string> RowFrom(std::string_view line) {
   return row;
 }
 
+/// The line that ends a trial of such rows.
+std::string DoneLine(int trial, std::string_view rows) {
+  ContentHash hash;
+  hash.Add(rows);
+  return std::string(kDone) + std::to_string(trial) + std::string(kDoneEnd) +
+         ShortHash(hash.value());
+}
+
 /// The trial of a line that ends one; -1 of any other.
 int TrialDone(std::string_view line) {
-  if (!line.starts_with(kDone) || !line.ends_with(kDoneEnd)) {
+  const auto done = line.find(kDoneEnd);
+  if (!line.starts_with(kDone) || done == std::string_view::npos) {
     return -1;
   }
-  line.remove_prefix(kDone.size());
-  line.remove_suffix(kDoneEnd.size());
+  const std::string_view number = line.substr(kDone.size(), done - kDone.size());
   int trial = -1;
-  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), trial);
-  return error == std::errc() && end == line.data() + line.size() ? trial : -1;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), trial);
+  return error == std::errc() && end == number.data() + number.size() ? trial : -1;
 }
 
 std::string TrialText(int trial, const TrialRecord::Rows& rows) {
@@ -73,7 +85,18 @@ std::string TrialText(int trial, const TrialRecord::Rows& rows) {
   for (const auto& row : rows) {
     text += RowText(row);
   }
-  return text + std::string(kDone) + std::to_string(trial) + std::string(kDoneEnd) + "\n";
+  return text + DoneLine(trial, text) + "\n";
+}
+
+/// Whether another program writes that record now.
+bool IsHeld(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) {
+    return false;
+  }
+  const bool held = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return held;
 }
 
 Error CannotWrite(const std::filesystem::path& path) {
@@ -87,6 +110,10 @@ Result<TrialRecord> TrialRecord::Open(const std::filesystem::path& path, const R
                                       bool resume) {
   TrialRecord record;
   record.path_ = path;
+  if (IsHeld(path)) {
+    return UsageError(path.string() +
+                      ": another run writes here now; wait for it, or choose another --out");
+  }
   const std::string head = HeadOf(run);
   if (const Status read = record.Read(head, run.columns.size(), resume); !read) {
     return read.error();
@@ -104,6 +131,8 @@ Result<TrialRecord> TrialRecord::Open(const std::filesystem::path& path, const R
       std::fwrite(text.data(), 1, text.size(), record.file_.get()) == text.size() &&
       std::fflush(record.file_.get()) == 0;
   if (written) {
+    // Held until this program ends, however it does. A folder that knows no locks has none.
+    static_cast<void>(::flock(fileno(record.file_.get()), LOCK_EX | LOCK_NB));
     std::filesystem::rename(whole, path, error);
   }
   if (!written || error) {
@@ -128,6 +157,7 @@ Status TrialRecord::Read(const std::string& head, std::size_t columns, bool resu
   }
   std::string_view rest = text;
   Rows rows;
+  std::string told;  // the lines of these rows
   for (int number = 1; !rest.empty(); ++number) {
     const auto end = rest.find('\n');
     if (end == std::string_view::npos) {
@@ -143,8 +173,15 @@ Status TrialRecord::Read(const std::string& head, std::size_t columns, bool resu
             "\nchoose another --out, or give --overwrite in place of --resume to begin anew");
       }
     } else if (const int trial = TrialDone(line); trial >= 0) {
+      if (line != DoneLine(trial, told) || done_.contains(trial)) {
+        return InvalidError(path_.string() + ":" + std::to_string(number) +
+                            ": the rows above are not those that trial " + std::to_string(trial) +
+                            " wrote; remove the file to begin anew");
+      }
       done_[trial] = std::exchange(rows, {});
+      told.clear();
     } else {
+      told += std::string(line) + "\n";
       rows.push_back(RowFrom(line));
       if (rows.back().size() != columns) {
         return InvalidError(path_.string() + ":" + std::to_string(number) + ": " +

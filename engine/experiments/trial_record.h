@@ -1,11 +1,12 @@
 // The trials of a run, kept as each is done, so that a run that was killed goes on where it ended.
 //
 // A text file beside the CSV: a line that tells the run, then of each trial its rows and the line
-// "# trial N done". What stands after the last such line was cut off and is not taken. The run is
-// told with experiment, seed, shard and setup, and with hashes of the program and of the files that
-// its options name: the trials of another build or of an edited file are never mixed in. The number
-// of trials is not told, so a run that was ended may also be taken further: trial i is the same in
-// both.
+// "# trial N done SUM", with a check sum of these rows: an edited one is refused. What stands after
+// the last such line was cut off and is not taken. While a program writes a record no other may.
+// The run is told with experiment, seed, shard and setup, and with hashes of the program and of the
+// files that its options name: the trials of another build or of an edited file are never mixed in.
+// The number of trials is not told, so a run that was ended may also be taken further: trial i is
+// the same in both.
 //
 // One thread.
 #pragma once
@@ -34,9 +35,9 @@ class TrialRecord {
   };
 
   /// The record of a run at `path`; with `resume` what a run of the same kind left there is taken
-  /// first. Errors: the file cannot be written; it is of another run, or it holds trials and
-  /// `resume` is not given, for they would be lost (kUsage); a line of it is none of a record (file
-  /// and line).
+  /// first. Errors: the file cannot be written; another program writes it, it is of another run, or
+  /// it holds trials and `resume` is not given, for they would be lost (kUsage); a line of it is
+  /// none of a record, or the rows of a trial are not those that it wrote (file and line).
   static Result<TrialRecord> Open(const std::filesystem::path& path, const Run& run, bool resume);
 
   /// The rows of a trial that is done; null when it is not.

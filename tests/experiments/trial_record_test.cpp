@@ -48,16 +48,18 @@ TEST_F(Trials, AreTakenUpAgainWithAllTheirRowsAndNoneThatWasCutOff) {
     Keep(*record, 2, {});
   }
   std::ofstream(path_, std::ios::app) << "8,safe\n15,uns";  // of trial 3, when it was killed
-  Result<TrialRecord> again = Open(true);
-  ASSERT_TRUE(again) << again.error().message;
-  EXPECT_EQ(again->done_count(), 2);
-  ASSERT_NE(again->Done(0), nullptr);
-  EXPECT_EQ(*again->Done(0), (TrialRecord::Rows{{"8", "safe"}, {"15", ""}}));
-  ASSERT_NE(again->Done(2), nullptr);
-  EXPECT_TRUE(again->Done(2)->empty());
-  EXPECT_EQ(again->Done(1), nullptr);
-  EXPECT_EQ(again->Done(3), nullptr);
-  Keep(*again, 3, {{"8", "look"}});
+  {
+    Result<TrialRecord> again = Open(true);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(again->done_count(), 2);
+    ASSERT_NE(again->Done(0), nullptr);
+    EXPECT_EQ(*again->Done(0), (TrialRecord::Rows{{"8", "safe"}, {"15", ""}}));
+    ASSERT_NE(again->Done(2), nullptr);
+    EXPECT_TRUE(again->Done(2)->empty());
+    EXPECT_EQ(again->Done(1), nullptr);
+    EXPECT_EQ(again->Done(3), nullptr);
+    Keep(*again, 3, {{"8", "look"}});
+  }
   const Result<TrialRecord> third = Open(true);
   ASSERT_TRUE(third);
   EXPECT_EQ(third->done_count(), 3);
@@ -128,6 +130,47 @@ TEST_F(Trials, WithALineOfAnotherWidthNameFileLineAndWidth) {
   EXPECT_NE(refused.error().message.find(path_.string() + ":3: 3 values, there are 2 columns"),
             std::string::npos)
       << refused.error().message;
+}
+
+TEST_F(Trials, ThatWereEditedAreRefusedWithFileAndLine) {
+  {
+    Result<TrialRecord> record = Open(false);
+    ASSERT_TRUE(record);
+    Keep(*record, 0, {{"8", "safe"}});
+    Keep(*record, 1, {{"8", "look"}});
+  }
+  const std::string text = Text();
+  const auto row = text.find("8,safe\n"), end = text.find("8,look\n");
+  const std::string first = text.substr(row, end - row);
+  const std::string edits[] = {std::string(text).replace(row, 6, "8,look"),  // another value
+                               std::string(text).insert(row, "8,safe\n"),    // a row twice
+                               std::string(text).erase(row, 7),              // none
+                               std::string(text).insert(end, first)};        // a trial twice
+  for (const std::string& edit : edits) {
+    std::ofstream(path_, std::ios::binary) << edit;
+    const Result<TrialRecord> refused = Open(true);
+    ASSERT_FALSE(refused) << edit;
+    EXPECT_EQ(refused.error().message.find(path_.string() + ":"), 0u);
+    EXPECT_NE(refused.error().message.find("trial 0"), std::string::npos)
+        << refused.error().message;
+  }
+  std::ofstream(path_, std::ios::binary) << text;
+  EXPECT_TRUE(Open(true));
+}
+
+TEST_F(Trials, ThatAnotherProgramWritesAreLeftToIt) {
+  Result<TrialRecord> first = Open(false);
+  ASSERT_TRUE(first);
+  Keep(*first, 0, {{"8", "safe"}});
+  for (const bool resume : {false, true}) {
+    const Result<TrialRecord> second = Open(resume);
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code, ErrorCode::kUsage);
+    EXPECT_NE(second.error().message.find("another run writes here now"), std::string::npos);
+  }
+  Keep(*first, 1, {{"8", "look"}});
+  first->Finish(1);
+  EXPECT_EQ(Open(true)->done_count(), 2);
 }
 
 TEST_F(Trials, SayWhereTheyCannotBeKept) {
