@@ -33,13 +33,19 @@ fs::path PictureName(const fs::path& folder, const char* side, int index) {
   return folder / name;
 }
 
-Status PrepareFolder(const fs::path& folder) {
+/// No picture of an earlier run is written over.
+Status PrepareFolder(const fs::path& folder, int count) {
   if (const Status made = MakeFolder(folder); !made) {
     return made;
   }
   std::error_code error;
-  if (fs::exists(PictureName(folder, "left", 0), error)) {
-    return UsageError(folder.string() + " holds pairs already; choose another --out");
+  for (int index = 0; index < count; ++index) {
+    for (const char* side : {"left", "right"}) {
+      const fs::path picture = PictureName(folder, side, index);
+      if (fs::exists(picture, error)) {
+        return UsageError(picture.string() + " exists already; choose another --out");
+      }
+    }
   }
   return Ok();
 }
@@ -49,12 +55,12 @@ constexpr double kStampRounding_s = 1e-4;
 
 /// Pairs at least every_s apart in data time.
 Status Run(const CaptureOptions& options) {
-  if (const Status ready = PrepareFolder(options.out); !ready) {
-    return ready;
-  }
   Result<std::unique_ptr<Source>> source = OpenCameras(options.rig, /*wait_at_end=*/false);
   if (!source) {
     return source.error();
+  }
+  if (const Status ready = PrepareFolder(options.out, options.count); !ready) {
+    return ready;
   }
   (*source)->Control({PlaybackControl::Kind::kSpeed, 0});
   std::optional<Timestamp> last;

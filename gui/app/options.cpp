@@ -146,6 +146,11 @@ Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
   if (app.count("--connect") > 0 && sources.connect.empty()) {
     return UsageError("--connect needs the URL of a bus, e.g. udpm://239.255.76.67:7667?ttl=0");
   }
+  for (const auto& [path, choice] : choices) {
+    if (app.count(OptionOf(choice)) > 0 && path->empty()) {
+      return UsageError(std::string(OptionOf(choice)) + " needs a path; it is empty");
+    }
+  }
   if (chosen > 1) {
     return UsageError("--replay, --images, --cameras and --connect exclude each other");
   }

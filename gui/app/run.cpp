@@ -336,6 +336,10 @@ void Report(const AppOptions& options, const Session& session, const StationRun&
   if (options.headless && options.source == SourceChoice::kReplay) {
     std::printf("Sites and maps as data: palacectl log rerun %s --out DIR\n",
                 options.source_path.c_str());
+    if (const std::string damage = session.source->Status().damage; !damage.empty()) {
+      std::printf("The log is damaged: %s; palacectl log verify %s tells where\n", damage.c_str(),
+                  options.source_path.c_str());
+    }
   }
   if (report || (options.headless && !run.screenshots().empty())) {
     std::printf("Files: %s\n", session.output_dir.string().c_str());

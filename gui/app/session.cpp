@@ -182,7 +182,9 @@ Result<Session> OpenSession(const AppOptions& options, bool threaded) {
     return source.error();
   }
   std::string stamp = TimeStampName();
-  for (int n = 2; std::filesystem::exists(options.record_dir / stamp); ++n) {
+  // A folder that cannot be examined is told by the recorder, with what helps.
+  std::error_code ignored;
+  for (int n = 2; std::filesystem::exists(options.record_dir / stamp, ignored); ++n) {
     stamp = TimeStampName() + "_" + std::to_string(n);
   }
   session.output_dir = options.record_dir / stamp;
