@@ -5,7 +5,15 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "tests/support/own_path.h"
 
@@ -77,6 +85,76 @@ TEST_F(PictureFile, OfAFullDiskIsNotLeftCut) {
   EXPECT_EQ(earlier->pixels(), Noise(1).pixels());
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1)
       << "something is left of what was not written";
+}
+
+/// A JPEG with a segment of EXIF after its first two bytes.
+std::string JpegWith(const ImageU8& image, const std::string& exif) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(
+      ".jpg",
+      cv::Mat(image.height(), image.width(), CV_8UC1, const_cast<std::uint8_t*>(image.row(0))),
+      bytes);
+  const std::size_t length = exif.size() + 2;
+  std::string jpeg(bytes.begin(), bytes.end());
+  return jpeg.insert(2, std::string("\xFF\xE1", 2) + static_cast<char>(length >> 8) +
+                            static_cast<char>(length & 0xFF) + exif);
+}
+
+void Write(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+TEST_F(PictureFile, CutShortIsRefusedThoughASmallPictureInItIsWhole) {
+  const std::string jpeg =
+      JpegWith(Noise(1), std::string("Exif\0\0\xFF\xD8\xFF\xDB\0\0\xFF\xD9", 14));
+  Write(folder_ / "whole.jpg", jpeg);
+  EXPECT_TRUE(ReadGreyPicture(folder_ / "whole.jpg"));
+  for (const std::size_t length :
+       {std::size_t{10}, std::size_t{60}, jpeg.size() / 2, jpeg.size() - 2}) {
+    Write(folder_ / "cut.jpg", jpeg.substr(0, length));
+    const auto read = ReadGreyPicture(folder_ / "cut.jpg");
+    ASSERT_FALSE(read) << length;
+    EXPECT_THAT(read.error().message, HasSubstr("the picture is cut short")) << length;
+  }
+}
+
+// A lens is that of the sensor: what a camera notes of how it was held turns no picture.
+TEST_F(PictureFile, IsReadAsItWasStoredWhicheverWayUp) {
+  // TIFF header, one entry: orientation (0x0112), a short, 3: turned by 180 degrees.
+  const std::string turned(
+      "Exif\0\0II\x2A\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x03\0\0\0\0\0\0\0", 32);
+  Write(folder_ / "plain.jpg", JpegWith(Noise(1), std::string("Exif\0\0", 6)));
+  Write(folder_ / "turned.jpg", JpegWith(Noise(1), turned));
+  const auto plain = ReadGreyPicture(folder_ / "plain.jpg"),
+             as_stored = ReadGreyPicture(folder_ / "turned.jpg");
+  ASSERT_TRUE(plain && as_stored);
+  EXPECT_EQ(as_stored->pixels(), plain->pixels());
+}
+
+TEST_F(PictureFile, OfSixteenBitsGivesItsUpperEightOrSaysThatTheyAreEmpty) {
+  const ImageU8 noise = Noise(1);
+  cv::Mat picture(noise.height(), noise.width(), CV_16UC1);
+  const auto save = [&](const char* name, int times, int plus) {
+    for (int y = 0; y < noise.height(); ++y) {
+      for (int x = 0; x < noise.width(); ++x) {
+        picture.at<std::uint16_t>(y, x) =
+            static_cast<std::uint16_t>(noise.row(y)[x] * times + plus);
+      }
+    }
+    ASSERT_TRUE(cv::imwrite(folder_ / name, picture));
+  };
+  for (const char* name : {"a.png", "a.pgm", "a.tif"}) {
+    save(name, 256, 255);
+    const auto whole = ReadGreyPicture(folder_ / name);
+    ASSERT_TRUE(whole) << name << ": " << whole.error().message;
+    EXPECT_EQ(whole->pixels(), noise.pixels()) << name;
+    save(name, 16, 0);  // twelve bits
+    const auto dark = ReadGreyPicture(folder_ / name);
+    ASSERT_FALSE(dark) << name;
+    EXPECT_THAT(dark.error().message, HasSubstr("whose largest value is 4080, nearly black"));
+    save(name, 0, 0);  // a lens that is covered is black, and nothing to mend
+    EXPECT_TRUE(ReadGreyPicture(folder_ / name)) << name;
+  }
 }
 
 TEST_F(PictureFile, OfAnUnknownKindIsRefused) {
