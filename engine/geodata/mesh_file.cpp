@@ -10,8 +10,8 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/geodata/text_lines.h"
 #include "engine/geodata/ply_file.h"
+#include "engine/geodata/text_lines.h"
 
 namespace palace {
 namespace {
@@ -50,7 +50,9 @@ class ObjReader {
 
   Result<MeshFile> Read() {
     for (std::string line; std::getline(file_, line);) {
-      ++line_;
+      if (++line_ == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) {
+        line.erase(0, 3);
+      }
       const std::size_t first = line.find_first_not_of(" \t\r");
       if (first == std::string::npos) {
         continue;
@@ -72,7 +74,8 @@ class ObjReader {
   std::string Where() const { return path_.string() + ":" + std::to_string(line_) + ": "; }
 
   Status ReadVertex(const std::string& words) {
-    if (ParseNumbers(words, 3, numbers_) < 3) {
+    // "1,5" is no number here, and no two.
+    if (words.find(',') < words.find('#') || ParseNumbers(words, 3, numbers_) < 3) {
       return Here("a vertex needs x y z, found " + QuotedLine(words));
     }
     const Vector3d p(numbers_[0], numbers_[1], numbers_[2]);
@@ -99,7 +102,11 @@ class ObjReader {
       const long long index = std::strtoll(at, &end, 10);
       const auto count = static_cast<long long>(mesh_.vertices.size());
       const long long place = index < 0 ? count + index : index - 1;
-      if (end == at || index == 0 || place < 0 || place >= count) {
+      const bool is_index = end != at && std::strchr("/ \t\r#", *end) != nullptr;  // or the end
+      if (!is_index) {
+        return Here("a corner is no whole number: " + QuotedLine(words));
+      }
+      if (index == 0 || place < 0 || place >= count) {
         return Here("a face names no vertex of the " + std::to_string(count) +
                     " before it: " + QuotedLine(words));
       }

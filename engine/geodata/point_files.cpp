@@ -5,9 +5,10 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <utility>
 
-#include "engine/geodata/text_lines.h"
 #include "engine/geodata/ply_file.h"
+#include "engine/geodata/text_lines.h"
 
 namespace palace {
 namespace {
@@ -51,20 +52,20 @@ Status ReadLines(const std::filesystem::path& path, std::ifstream& file, std::si
     }
     if (line.find(';') != std::string::npos && line.find(',') != std::string::npos) {
       return ErrorAtLine(path, n,
-                    "both ; and , in " + QuotedLine(line) + "; write decimals with a point");
+                         "both ; and , in " + QuotedLine(line) + "; write decimals with a point");
     }
     if (HasDecimalCommas(line)) {
       return ErrorAtLine(path, n,
-                    "both blanks and , between numbers in " + QuotedLine(line) +
-                        "; write decimals with a point");
+                         "both blanks and , between numbers in " + QuotedLine(line) +
+                             "; write decimals with a point");
     }
     if (ParseNumbers(line, kMostColumns, numbers) < least) {
       if (columns == 0 && numbers.empty()) {
         continue;  // a heading
       }
       return ErrorAtLine(path, n,
-                    "expected " + std::string(least > 3 ? "x y z label" : "x y z") + ", found " +
-                        QuotedLine(line));
+                         "expected " + std::string(least > 3 ? "x y z label" : "x y z") +
+                             ", found " + QuotedLine(line));
     }
     if (file.eof() && numbers.size() < columns) {
       return ErrorAtLine(path, n, "the last line is cut off: " + QuotedLine(line));
@@ -97,9 +98,10 @@ Result<Points> ReadPly(const std::filesystem::path& path, std::ifstream& file) {
   if (vertex == header->elements.end()) {
     return InvalidError(path.string() + ": has no element vertex; it is no cloud of points");
   }
-  if (vertex != header->elements.begin() && header->elements.front().count > 0) {
+  if (std::any_of(header->elements.begin(), vertex,
+                  [](const PlyElement& element) { return element.count > 0; })) {
     return ErrorAtLine(path, vertex->line,
-                  "the vertices must come first; save the cloud without other data");
+                       "the vertices must come first; save the cloud without other data");
   }
   std::array<std::size_t, 3> column{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -120,17 +122,31 @@ Result<Points> ReadPly(const std::filesystem::path& path, std::ifstream& file) {
   return points;
 }
 
-}  // namespace
-
-Result<std::vector<Eigen::Vector3d>> ReadPointFile(const std::filesystem::path& path) {
+/// No pipe and no device: one may never end, and none can be read from its start again.
+Result<std::ifstream> OpenPoints(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     return InvalidError(path.string() + " is a folder; give the file of points");
+  }
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
+    return UnavailableError(path.string() +
+                            ": is no file on disk; save the points as a file and name that");
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) {
     return UnavailableError("cannot read " + path.string() + ": does the file exist?");
   }
+  return Result<std::ifstream>(std::move(file));
+}
+
+}  // namespace
+
+Result<std::vector<Eigen::Vector3d>> ReadPointFile(const std::filesystem::path& path) {
+  auto opened = OpenPoints(path);
+  if (!opened) {
+    return opened.error();
+  }
+  std::ifstream& file = *opened;
   std::string start(4, '\0');
   file.read(start.data(), 4);
   const bool ply = start.rfind("ply", 0) == 0;
@@ -148,10 +164,11 @@ Result<std::vector<Eigen::Vector3d>> ReadPointFile(const std::filesystem::path& 
 }
 
 Result<std::vector<LabelledPoint>> ReadLabelledPoints(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    return UnavailableError("cannot read " + path.string() + ": does the file exist?");
+  auto opened = OpenPoints(path);
+  if (!opened) {
+    return opened.error();
   }
+  std::ifstream& file = *opened;
   std::vector<LabelledPoint> points;
   const Status read = ReadLines(path, file, 4, [&](const std::vector<double>& numbers) {
     points.push_back({{numbers[0], numbers[1], numbers[2]}, numbers[3] == 1});

@@ -51,6 +51,13 @@ TEST_F(MeshFiles, AnObjFileInEverySpelling) {
   EXPECT_EQ(FindOpenEdges(*mesh).count, 0U);
 }
 
+TEST_F(MeshFiles, AByteOrderMarkTakesNoVertex) {
+  const auto plain = Read(kTetrahedron), marked = Read("\xEF\xBB\xBF" + std::string(kTetrahedron));
+  ASSERT_TRUE(plain && marked);
+  EXPECT_EQ(marked->vertices, plain->vertices);
+  EXPECT_EQ(marked->triangles, plain->triangles);
+}
+
 TEST_F(MeshFiles, APolygonIsAFan) {
   const auto mesh = Read("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5\n");
   ASSERT_TRUE(mesh.ok()) << mesh.error().message;
@@ -106,6 +113,9 @@ TEST_F(MeshFiles, WhatIsNoMeshIsNamed) {
   } table[] = {
       {"empty", "", "has no triangles"},
       {"a cloud", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "has no triangles"},
+      {"decimal commas", "v 1,5 1 1\n", ".obj:1: a vertex needs x y z, found \"1,5 1 1\""},
+      {"half a vertex", "v 0 0 0\nf 1.7 1 1\n", ".obj:2: a corner is no whole number"},
+      {"a corner with a tail", "v 0 0 0\nf 1 1abc 1\n", ".obj:2: a corner is no whole number"},
       {"words", "v 0 0 zero\n", ".obj:1: a vertex needs x y z, found \"0 0 zero\""},
       {"far away", "v 0 0 2e6\n", ".obj:1: a vertex beyond +-1000000"},
       {"not a number", "v 0 nan 0\n", ".obj:1: a vertex beyond +-1000000"},

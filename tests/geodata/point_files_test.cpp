@@ -2,6 +2,8 @@
 // through the program; here that points come out as they stand in the file.
 #include "engine/geodata/point_files.h"
 
+#include <sys/stat.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -60,6 +62,30 @@ TEST_F(PointFiles, ErrorsNameFileAndLine) {
   const auto plain = ReadPointFile(path_);
   ASSERT_FALSE(plain.ok());
   EXPECT_NE(plain.error().message.find(path_.string() + ":2: "), std::string::npos);
+}
+
+TEST_F(PointFiles, DataBeforeTheVerticesAreRefusedWhereverTheyStand) {
+  for (const char* first : {"element b 1\nproperty int k\n",
+                            "element a 0\nproperty int k\nelement b 1\nproperty int k\n"}) {
+    Write("ply\nformat ascii 1.0\n" + std::string(first) +
+          "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+          "7\n0 0 0\n1 0 0\n0 1 0\n");
+    const auto points = ReadPointFile(path_);
+    ASSERT_FALSE(points.ok()) << first;
+    EXPECT_NE(points.error().message.find("the vertices must come first"), std::string::npos)
+        << points.error().message;
+  }
+}
+
+TEST_F(PointFiles, WhatIsNoFileOnDiskIsRefusedAtOnce) {
+  const std::string pipe = OwnPath(".pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& name : {std::string("/dev/zero"), pipe}) {
+    EXPECT_NE(ReadPointFile(name).error().message.find("is no file on disk"), std::string::npos);
+    EXPECT_NE(ReadLabelledPoints(name).error().message.find("is no file on disk"),
+              std::string::npos);
+  }
+  std::filesystem::remove(pipe);
 }
 
 }  // namespace
