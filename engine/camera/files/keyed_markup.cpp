@@ -223,7 +223,8 @@ KeyedText ParseYaml(std::string_view text, const std::string& file) {
 
 KeyedText ParseXml(std::string_view text, const std::string& file) {
   KeyedText keyed(file);
-  std::vector<std::string> path;  // without the root
+  std::vector<std::string> path;        // without the root
+  std::vector<std::string_view> names;  // of the elements that are open, the root among them
   int depth = 0;
   int line = 1;
   bool has_root = false;
@@ -249,7 +250,15 @@ KeyedText ParseXml(std::string_view text, const std::string& file) {
       break;
     }
     const std::string_view tag = text.substr(open + 1, close - open - 1);
+    const std::string_view name = tag.substr(0, tag.find_first_of(" \t\r\n/", 1));
     if (!comment && tag.substr(0, 1) == "/") {
+      if (names.empty() || names.back() != name.substr(1)) {
+        keyed.LeaveOpen(line + CountLines(content),
+                        names.empty() ? "the start tag of <" + std::string(name) + ">"
+                                      : "the end tag </" + std::string(names.back()) + ">");
+        return keyed;
+      }
+      names.pop_back();
       leave(content);
     } else if (!comment && !tag.empty() && tag[0] != '?' && tag[0] != '!') {
       has_root = true;
@@ -257,7 +266,9 @@ KeyedText ParseXml(std::string_view text, const std::string& file) {
         path.emplace_back(tag.substr(0, std::min(tag.find_first_of(" \t\r\n/"), kLongestKey)));
       }
       ++depth;
+      names.push_back(name);
       if (tag.back() == '/') {
+        names.pop_back();
         leave({});
       }
     }

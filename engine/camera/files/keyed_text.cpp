@@ -37,7 +37,11 @@ void KeyedText::Add(std::string_view key, int line, std::string_view text, bool 
   if (key.size() > 16 * kLongestKey || values_.size() >= kMostKeys) {
     return;
   }
-  values_.try_emplace(std::string(key), KeyedValue{line, std::string(Trimmed(text)), is_cut});
+  const auto [place, is_new] =
+      values_.try_emplace(std::string(key), KeyedValue{line, std::string(Trimmed(text)), is_cut});
+  if (!is_new && place->second.again_line == 0 && place->second.text != Trimmed(text)) {
+    place->second.again_line = line;
+  }
 }
 
 const KeyedValue* KeyedText::Find(std::string_view key) const {
@@ -107,6 +111,10 @@ Result<std::vector<double>> KeyedText::Numbers(std::string_view key, std::size_t
   if (value == nullptr) {
     return Missing(key, "give its " + wanted + (most == 1 ? " number" : " numbers"));
   }
+  if (value->again_line > 0) {
+    return Wrong(key, "line " + std::to_string(value->again_line) +
+                          " gives it again with another value; leave one of them");
+  }
   if (value->is_cut) {
     return Wrong(key,
                  "the file ends in this value, it may be cut short; fetch it anew, or close the "
@@ -126,7 +134,7 @@ Result<std::vector<double>> KeyedText::Numbers(std::string_view key, std::size_t
     if (rest.empty() || numbers.size() > most) {
       break;
     }
-    if (rest.front() == '+') {
+    if (rest.front() == '+' && rest.substr(1, 1) != "-") {
       rest.remove_prefix(1);
     }
     double number = 0;

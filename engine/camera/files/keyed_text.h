@@ -26,11 +26,13 @@ struct KeyedValue {
   int line = 0;
   std::string text;
   bool is_cut = false;  ///< the text of the file ends in it
+  int again_line = 0;   ///< that gives another value to the same key; 0: none
 };
 
 constexpr std::size_t kLongestKey = 256;  ///< longer names are no keys, and end up nowhere
 
-/// Values of a file by key. Of keys that occur twice the first counts; after 65,536 keys no more
+/// Values of a file by key. Of keys that occur twice the first counts, but
+/// for numbers, which are refused where the other differs; after 65,536 keys no more
 /// are taken.
 class KeyedText {
  public:

@@ -23,7 +23,8 @@ std::optional<std::vector<double>> NumbersOf(std::string_view line) {
     if (first == std::string_view::npos) {
       return numbers;
     }
-    line.remove_prefix(first + (line[first] == '+' ? 1 : 0));
+    line.remove_prefix(first);
+    line.remove_prefix(line.starts_with('+') && !line.starts_with("+-") ? 1 : 0);
     double number = 0;
     const auto [next, error] = std::from_chars(line.data(), line.data() + line.size(), number);
     const auto used = static_cast<std::size_t>(next - line.data());

@@ -146,8 +146,8 @@ class Reader {
     const std::string told = std::string(column.name) + " = " + word;
     const char* end = word.data() + word.size();
     double value = NAN;
-    const auto [next, error] =
-        std::from_chars(word.data() + (word.starts_with('+') ? 1 : 0), end, value);
+    const auto [next, error] = std::from_chars(
+        word.data() + (word.starts_with('+') && !word.starts_with("+-") ? 1 : 0), end, value);
     if (error != std::errc() || next != end) {
       return Wrong(told + " is no number; give " + column.unit + ", from " +
                    NumberText(column.least) + " to " + NumberText(column.greatest));

@@ -44,6 +44,12 @@ Result<CameraModel> ReadWillson(const KeyedText& text) {
   TsaiModel model;
   std::array<double, 2> p{};
   int number = 0;
+  if (text.Has("18") && !text.Has("19")) {
+    return text.Wrong(
+        "18",
+        "18 numbers, one is missing or one too many; a .cpcc file holds 17, or 19 with "
+        "p1 and p2");
+  }
   for (const Field& field : FieldsOf(model, p)) {
     const std::string key = std::to_string(++number);
     const bool optional = number > 17;

@@ -69,7 +69,7 @@ class Row {
   Result<double> Number(std::size_t at, const std::string& name, double most) const {
     std::string_view word = Word(at);
     const std::string told = name + " = " + std::string(word.substr(0, 40));
-    if (!word.empty() && word.front() == '+') {
+    if (word.starts_with('+') && !word.starts_with("+-")) {
       word.remove_prefix(1);
     }
     double value = NAN;
