@@ -21,7 +21,6 @@ constexpr double kGate2 = 9;                   // three sigmas
 constexpr double kGateFloor_m2 = 0.05 * 0.05;  // matching wobbles this much beyond its sigma
 constexpr double kFusedFloor_m2 = 1e-5;
 constexpr double kUnseenGrowth_m2 = 4e-6;  // a map unseen: 2 cm after a hundred maps
-constexpr double kForgotten_m2 = 0.25;
 constexpr int kLongestMemory_frames = 50;
 /// Stereo errs on the same ground by this much in every frame: texture under the window, steps of
 /// whole pixels. It does not average away.
@@ -307,12 +306,6 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
     const double p = static_cast<double>(variance);
     if (frame.state.cells()[i] != CellState::kMeasured) {
       variance = static_cast<float>(p + kUnseenGrowth_m2);
-      if (state == CellState::kMeasured && p > kForgotten_m2) {
-        mean = measured = variance = age_s = kUnknownValue;
-        map_.air_seen_to_m.cells()[i] = kUnknownValue;
-        count = 0;
-        state = CellState::kUnknown;
-      }
       continue;
     }
     age_s = 0;

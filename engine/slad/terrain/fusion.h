@@ -29,7 +29,7 @@
 // the same side replaces the cell. A pose laid sideways by s misplaces ground of gradient g (the
 // frame's own, over two cells): an edge that wanders is no contradiction. It stays out of R,
 // because it says where an edge is, not whether. Unseen cells keep their height while their
-// variance and age grow, and are forgotten above 0.25 m^2; age is the data time since a frame last
+// variance and age grow; age is the data time since a frame last
 // held the cell, agreeing or not. Thesis mode fuses nothing: Add is ElevationFromRange.
 #pragma once
 
