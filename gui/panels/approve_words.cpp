@@ -152,10 +152,21 @@ double ThinnestSeenAt(const EngineSnapshot& snap, const Eigen::Vector3d& p_W) {
   return range ? ThinnestSeen_m(range->camera, snap.sensors->X_WC, p_W) : NAN;
 }
 
+/// What no map is sure of, whatever the site's standing; empty where it is not known.
+std::string ThinWords(const EngineSnapshot& snap, bool narrow) {
+  const MissionStatus& m = snap.flight->mission;
+  const double thin_m = m.armed ? ThinnestSeenAt(snap, m.armed->p_WS) : NAN;
+  return std::isnan(thin_m)
+             ? ""
+             : std::string(narrow ? " Nothing" : " From here nothing") + " thinner than " +
+                   Fixed(100 * thin_m, 0) + " cm is sure to be seen.";
+}
+
 }  // namespace
 
 std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
   const MissionStatus& m = snap.flight->mission;
+  const std::string thin = ThinWords(snap, narrow);
   const std::string side = SideWords(m);
   const bool brief = narrow && !side.empty();  // one line has no room for all
   std::string text = Fixed(m.distance_to_site_m, 1) + " m away";
@@ -179,25 +190,21 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
     // for a short one.
     const std::string shaken = "A map called it unsafe " + Fixed(shaken_s, 0) + " s ago";
     if (narrow && !side.empty()) {
-      return "Called unsafe " + Fixed(shaken_s, 0) + " s ago" + side + ".";
+      return "Called unsafe " + Fixed(shaken_s, 0) + " s ago" + side + "." + thin;
     }
     const std::string flown =
         side.empty() ? shaken + "." : shaken + ". Flown" + side.substr(1) + ".";
-    return narrow ? flown : flown + " " + (doubt.empty() ? text + "." : doubt);
+    return (narrow ? flown : flown + " " + (doubt.empty() ? text + "." : doubt)) + thin;
   }
   if (!doubt.empty() && (!narrow || side.empty())) {
     // Where there is room for one, the button names the standing and the list the way.
-    return narrow ? AsSentence(why) : text + ". " + doubt;
+    return (narrow ? AsSentence(why) : text + ". " + doubt) + thin;
   }
   if (!narrow && m.approach) {
     text += ", heading " + HeadingText(m.approach->heading_rad) + " at " +
             Fixed(m.approach->descent_rate_mps, 1) + " m/s";
   }
-  if (const double thin_m = narrow || !m.armed ? NAN : ThinnestSeenAt(snap, m.armed->p_WS);
-      !std::isnan(thin_m)) {
-    text += ". From here nothing thinner than " + Fixed(100 * thin_m, 0) + " cm is sure to be seen";
-  }
-  return text + ".";
+  return text + "." + thin;
 }
 
 std::string WhatToDoUnarmed(const EngineSnapshot& snap) {

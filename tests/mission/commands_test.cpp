@@ -48,7 +48,7 @@ TEST(Approving, TheEventNamesTheStandingOfTheSite) {
     const char* mark;
   } table[] = {{true, 0.01, false, ""},
                {false, 0.01, false, ", provisional"},
-               {false, 0.2, false, ", look first"},
+               {false, 0.2, false, ", not seen enough"},
                {false, 0.2, true, ""}};
   for (const auto& row : table) {
     SCOPED_TRACE(row.mark);

@@ -1,8 +1,8 @@
 #include "engine/model/mission/approve_offer.h"
 
-#include <cctype>
 #include <cstdio>
 
+#include "engine/core/check.h"
 #include "engine/core/rounding.h"
 
 namespace palace {
@@ -29,13 +29,15 @@ SiteStanding ArmedStanding(const MissionStatus& mission, const SladSettings& set
 }
 
 std::string StandingMark(const MissionStatus& mission, const SladSettings& settings) {
-  const SiteStanding standing = ArmedStanding(mission, settings);
-  if (standing == SiteStanding::kConfirmed) {
-    return {};
+  switch (ArmedStanding(mission, settings)) {
+    case SiteStanding::kConfirmed:
+      return "";
+    case SiteStanding::kProvisional:
+      return ", provisional";
+    case SiteStanding::kToLookAt:
+      return ", not seen enough";
   }
-  std::string word = StandingWord(standing);
-  word.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(word.front())));
-  return ", " + word;
+  PALACE_CHECK(false);
 }
 
 }  // namespace palace

@@ -21,7 +21,7 @@ std::string WhyScreenOld(double silent_s);
 LandingSite ArmedAsKnown(const MissionStatus& mission);
 SiteStanding ArmedStanding(const MissionStatus& mission, const SladSettings& settings);
 /// The same as it stands behind the site's name on the button and in the record: empty,
-/// ", provisional", ", look first" (what is approved is a landing all the same).
+/// ", provisional", ", not seen enough": what is approved is a landing, so none of them is a verb.
 std::string StandingMark(const MissionStatus& mission, const SladSettings& settings);
 
 }  // namespace palace

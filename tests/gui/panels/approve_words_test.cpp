@@ -34,7 +34,7 @@ TEST(ApproveWords, TheButtonTellsWhatAHoldDoesOrWhyItDoesNothing) {
          mission(s).armed->confirmed = false;
          mission(s).armed->height_m.three_sigma = 0.2;
        },
-       HoldPhase::kReady, "Hold to approve A, look first", ""},
+       HoldPhase::kReady, "Hold to approve A, not seen enough", ""},
       {"confirmed by a map since",
        [&](EngineSnapshot& s) {
          mission(s).armed->confirmed = false;
@@ -146,12 +146,17 @@ TEST(ApproveWords, AnApprovalLeadsToADescentUnlessSomethingSpeaksAgainstTheSite)
   EXPECT_EQ(ApprovalConsequence(snap, false),
             "5.9 m away, 38.2 m down. Touchdown in about 72 s, heading 040° at 1.0 m/s. From here "
             "nothing thinner than 6 cm is sure to be seen.");
-  EXPECT_EQ(ApprovalConsequence(snap, true), "5.9 m away, 38.2 m down, touchdown in about 72 s.");
+  EXPECT_EQ(ApprovalConsequence(snap, true),
+            "5.9 m away, 38.2 m down, touchdown in about 72 s. "
+            "Nothing thinner than 6 cm is sure to be seen.");
   m.armed->confirmed = false;
   m.armed->frames_fused = 1;
   EXPECT_NE(ApprovalConsequence(snap, false).find("Provisional: "), std::string::npos);
   // The button names the standing: what is left of the sentence is one of its own.
-  EXPECT_EQ(ApprovalConsequence(snap, true), "Seen in 1 of the 3 frames that it takes.");
+  EXPECT_EQ(
+      ApprovalConsequence(snap, true),
+      "Seen in 1 of the 3 frames that it takes. Nothing thinner than 6 cm is sure to be seen.");
+  EXPECT_NE(ApprovalConsequence(snap, false).find("nothing thinner than 6 cm"), std::string::npos);
   m.armed->height_m.three_sigma = 0.2;
   EXPECT_NE(ApprovalConsequence(snap, false).find("Look first: height noise 20.0 cm"),
             std::string::npos);
@@ -161,15 +166,17 @@ TEST(ApproveWords, AnApprovalLeadsToADescentUnlessSomethingSpeaksAgainstTheSite)
   shaken->selection.sites[0].called_unsafe_s = 24;
   shaken->selection.sites[0].map_time = AddSeconds(snap.time, -4);
   snap.terrain.Edit().applied = shaken;
-  EXPECT_EQ(ApprovalConsequence(snap, true), "A map called it unsafe 28 s ago.");
+  EXPECT_EQ(ApprovalConsequence(snap, true),
+            "A map called it unsafe 28 s ago. Nothing thinner than 6 cm is sure to be seen.");
   EXPECT_EQ(
       ApprovalConsequence(snap, false),
-      "A map called it unsafe 28 s ago. Provisional: seen in 1 of the 3 frames that it takes.");
+      "A map called it unsafe 28 s ago. Provisional: seen in 1 of the 3 frames that it takes. From "
+      "here nothing thinner than 6 cm is sure to be seen.");
   snap.flight.Edit().mission.armed->confirmed = true;
   EXPECT_EQ(ApprovalConsequence(snap, false).find("A map called it unsafe 28 s ago. 5.9 m"), 0u);
   snap.flight.Edit().mission.approach = ApproachPlan{};
   snap.flight.Edit().mission.approach->side = 3;
-  const std::string line = ApprovalConsequence(snap, true);  // one line at 1280 x 720
+  const std::string line = ApprovalConsequence(snap, true);
   EXPECT_EQ(line.find("Called unsafe 28 s ago, from the "), 0u) << line;
 }
 
