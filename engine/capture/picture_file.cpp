@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -16,15 +13,17 @@
 
 #include "engine/camera/grey_view.h"
 #include "engine/camera/picture_writer.h"
+#include "engine/core/files.h"
 
 namespace palace {
 namespace {
+
+constexpr std::size_t kLargestFile = std::size_t{256} << 20;  // 16 bits of 8192 x 8192 px, twice
 
 constexpr std::string_view kPngStart("\x89PNG\r\n\x1a\n", 8);
 constexpr std::string_view kPngEnd("\0\0\0\0IEND\xae\x42\x60\x82", 12);
 constexpr std::string_view kJpegStart("\xff\xd8\xff", 3);
 constexpr std::string_view kJpegEnd("\xff\xd9", 2);
-constexpr std::uintmax_t kMostBytes = 256 << 20;
 
 /// Where the picture itself begins in a JPEG, after tables and whatever a camera adds, a small
 /// picture with an end of its own among it; npos where that is cut off.
@@ -86,19 +85,11 @@ int LargestOfFewBits(const cv::Mat& picture) {
 }  // namespace
 
 Result<ImageU8> ReadGreyPicture(const std::filesystem::path& path) {
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code)) {
-    return UnavailableError(path.string() + ": no such file; check the name");
+  const Result<std::string> file = ReadTextFile(path, kLargestFile);
+  if (!file) {
+    return file.error();
   }
-  if (const std::uintmax_t size = std::filesystem::file_size(path, code); size > kMostBytes) {
-    return InvalidError(path.string() + ": " + std::to_string(size) +
-                        " bytes, a picture has at most " + std::to_string(kMostBytes));
-  }
-  std::ifstream stream(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream.is_open() || stream.bad()) {
-    return UnavailableError(path.string() + ": cannot be read; check its permissions");
-  }
+  const std::string& bytes = *file;
   if (CutShort(bytes)) {
     return InvalidError(path.string() + ": the picture is cut short after " +
                         std::to_string(bytes.size()) + " bytes; copy or record it again");

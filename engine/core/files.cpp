@@ -8,7 +8,7 @@
 
 namespace palace {
 
-Result<std::string> ReadTextFile(const std::filesystem::path& path, std::size_t limit) {
+Status CheckRegularFile(const std::filesystem::path& path) {
   std::error_code code;
   if (std::filesystem::is_directory(path, code)) {
     return UnavailableError(path.string() + ": is a folder; name a file in it");
@@ -16,10 +16,17 @@ Result<std::string> ReadTextFile(const std::filesystem::path& path, std::size_t 
   if (path == "-" || std::filesystem::is_character_file(path, code) ||
       std::filesystem::is_fifo(path, code)) {
     return UnavailableError(path.string() +
-                            ": is no file on disk; save the text as a file and name that");
+                            ": is no file on disk; save what it gives as a file and name that");
   }
   if (!std::filesystem::is_regular_file(path, code)) {
     return UnavailableError(path.string() + ": no such file; check the name");
+  }
+  return Ok();
+}
+
+Result<std::string> ReadTextFile(const std::filesystem::path& path, std::size_t limit) {
+  if (const Status regular = CheckRegularFile(path); !regular) {
+    return regular.error();
   }
   std::ifstream stream(path, std::ios::binary);
   std::string text;
@@ -33,6 +40,7 @@ Result<std::string> ReadTextFile(const std::filesystem::path& path, std::size_t 
     return UnavailableError(path.string() + ": cannot be read; check its permissions");
   }
   if (text.size() > limit) {
+    std::error_code code;
     const std::uintmax_t size = std::filesystem::file_size(path, code);
     return InvalidError(path.string() + ": " + (code ? "" : std::to_string(size) + " bytes, ") +
                         "larger than " + std::to_string(limit) + " bytes; is it the right file?");

@@ -9,8 +9,12 @@
 
 namespace palace {
 
-/// The file's text. Refuses missing files, folders, pipes and devices, and files over `limit`
-/// bytes, naming the path.
+/// Whether the path names a file on disk. Refuses missing files, folders, and pipes and devices,
+/// which may never end or never begin, naming the path.
+Status CheckRegularFile(const std::filesystem::path& path);
+
+/// The file's text, or its bytes. Refuses missing files, folders, pipes and devices, and files over
+/// `limit` bytes, naming the path.
 Result<std::string> ReadTextFile(const std::filesystem::path& path, std::size_t limit = 1 << 20);
 
 /// Writes through a neighbour file, so that a full disk leaves no half file under the name.

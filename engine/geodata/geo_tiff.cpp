@@ -9,8 +9,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "engine/core/files.h"
+#include "engine/core/plain_text.h"
+#include "engine/core/text.h"
 
 namespace palace {
 namespace {
@@ -18,6 +23,9 @@ namespace {
 constexpr ttag_t kNoDataTag = 42113;  // GDAL's
 constexpr int kMostCells = 8192;
 constexpr double kLeastCell_m = 0.001, kMostCell_m = 1000;
+/// Of a corner from its system's origin. Gauss-Kruger systems put the zone's number, up to 120, in
+/// front of an easting of six digits; farther lies nothing, and cells would fall together.
+constexpr double kFarthest_m = 1.3e8;
 
 struct CloseTiff {
   void operator()(TIFF* file) const { XTIFFClose(file); }
@@ -131,7 +139,17 @@ bool ReadCells(TIFF* file, SampleType type, GridF& cells) {
   return true;
 }
 
-void ReplaceNoData(TIFF* file, GridF& cells) {
+/// GDAL's text as a number; nothing where it is none. Old Windows programs write NaN as "-1.#IND".
+std::optional<float> NoDataOf(const std::string& text) {
+  if (text.find("#IND") != std::string::npos || text.find("#QNAN") != std::string::npos) {
+    return std::nanf("");
+  }
+  char* end = nullptr;
+  const float value = std::strtof(text.c_str(), &end);
+  return end == text.c_str() || *end != '\0' ? std::nullopt : std::optional<float>(value);
+}
+
+Status ReplaceNoData(const std::filesystem::path& path, TIFF* file, GridF& cells) {
   // libtiff does not know the tag and hands it out as an anonymous field, with its length.
   const TIFFField* field = TIFFFindField(file, kNoDataTag, TIFF_ANY);
   std::uint32_t length = 0;
@@ -139,14 +157,26 @@ void ReplaceNoData(TIFF* file, GridF& cells) {
   if (field == nullptr || TIFFFieldPassCount(field) == 0 ||
       TIFFFieldReadCount(field) != TIFF_VARIABLE2 ||
       TIFFGetField(file, kNoDataTag, &length, &text) == 0 || text == nullptr) {
-    return;
+    return Ok();
   }
-  const float no_data = std::strtof(std::string(text, length).c_str(), nullptr);
+  std::string told(text, length);
+  told = told.substr(0, told.find('\0'));
+  told.erase(told.find_last_not_of(" \t\r\n") + 1);
+  if (told.empty()) {
+    return Ok();
+  }
+  const std::optional<float> no_data = NoDataOf(told);
+  if (!no_data) {
+    constexpr std::size_t kShown = 40;
+    return Broken(path, "its no-data value " + QuotedText(told, kShown) +
+                            " is no number; correct it with gdal_edit.py -a_nodata");
+  }
   for (float& cell : cells.cells()) {
-    if (cell == no_data) {
+    if (cell == *no_data) {
       cell = kUnknownValue;
     }
   }
+  return Ok();
 }
 
 /// Corner and cell of a raster with its rows along the axes.
@@ -210,6 +240,12 @@ Status ReadPlace(const std::filesystem::path& path, TIFF* file, MapLayer& layer)
   }
   if (!std::isfinite(place->east) || !std::isfinite(place->north)) {
     return Broken(path, "its corner is not a finite place; write its tags anew with gdal_edit.py");
+  }
+  if (!(std::abs(place->east) <= kFarthest_m && std::abs(place->north) <= kFarthest_m)) {
+    return Broken(path, WithNumbers("its corner lies at east %g m, north %g m; places lie within "
+                                    "130 000 km of their origin, write its tags anew with "
+                                    "gdal_edit.py -a_ullr",
+                                    place->east, place->north));
   }
   if (!(place->cell_x > 0) || !(std::abs(place->cell_x - place->cell_y) <= 1e-3 * place->cell_x)) {
     return Broken(path, "cells are not square, north up; resample it with gdalwarp -tr");
@@ -285,9 +321,8 @@ Status WriteGeoTiff(const std::filesystem::path& path, const MapLayer& layer) {
 }
 
 Result<MapLayer> ReadGeoTiff(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    return UnavailableError("cannot read " + path.string() + " as TIFF: does the file exist?");
+  if (const Status regular = CheckRegularFile(path); !regular) {
+    return regular.error();
   }
   const TiffFile file = OpenTiff(path, "r");
   if (!file) {
@@ -323,7 +358,9 @@ Result<MapLayer> ReadGeoTiff(const std::filesystem::path& path) {
   if (!ReadCells(file.get(), type, layer.cells)) {
     return Broken(path, "is damaged or compressed in a way libtiff cannot read");
   }
-  ReplaceNoData(file.get(), layer.cells);
+  if (const Status replaced = ReplaceNoData(path, file.get(), layer.cells); !replaced) {
+    return replaced.error();
+  }
   return layer;
 }
 

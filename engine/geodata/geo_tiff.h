@@ -21,7 +21,8 @@ Status WriteGeoTiff(const std::filesystem::path& path, const MapLayer& layer);
 
 /// Reads one-band strips or tiles of 8 to 64 bits; no-data becomes NaN. Refuses, saying what to do:
 /// files without a place, rotated, in degrees, in feet, with cells that are not square or not
-/// between 1 mm and 1 km, larger than 8192 cells a side, cut off, or no TIFF at all.
+/// between 1 mm and 1 km, farther than 130 000 km from their origin, larger than 8192 cells a side,
+/// with a no-data value that is no number, cut off, or no TIFF at all.
 Result<MapLayer> ReadGeoTiff(const std::filesystem::path& path);
 
 }  // namespace palace

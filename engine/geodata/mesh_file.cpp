@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/core/files.h"
 #include "engine/geodata/ply_file.h"
 #include "engine/geodata/text_lines.h"
 
@@ -155,6 +156,9 @@ class PlyMeshReader {
   Error Here(const std::string& what) const { return InvalidError(path_.string() + ": " + what); }
 
   Status PassOver(const PlyElement& element, bool binary) {
+    if (binary && element.properties.empty()) {
+      return Ok();  // rows without bytes, as many as the header likes to claim
+    }
     PlyRows rows(path_, file_, binary, element, element.name + " row");
     for (std::size_t n = 0; n < element.count; ++n) {
       if (const Status read = rows.Next(); !read) {
@@ -221,16 +225,12 @@ class PlyMeshReader {
 }  // namespace
 
 Result<MeshFile> ReadMeshFile(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    return InvalidError(path.string() + " is a folder; give the file of a mesh");
+  if (const Status regular = CheckRegularFile(path); !regular) {
+    return regular.error();
   }
-  std::ifstream file;
-  if (std::filesystem::is_regular_file(path, error)) {  // no pipe or device: they never end
-    file.open(path, std::ios::binary);
-  }
+  std::ifstream file(path, std::ios::binary);
   if (!file.is_open()) {
-    return UnavailableError("cannot read " + path.string() + ": does the file exist?");
+    return UnavailableError(path.string() + ": cannot be read; check its permissions");
   }
   char start[4] = {};
   file.read(start, 3);

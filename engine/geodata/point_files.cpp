@@ -5,8 +5,8 @@
 #include <cstring>
 #include <fstream>
 #include <string>
-#include <utility>
 
+#include "engine/core/files.h"
 #include "engine/geodata/ply_file.h"
 #include "engine/geodata/text_lines.h"
 
@@ -31,6 +31,15 @@ bool HasDecimalCommas(const std::string& line) {
     }
   }
   return false;
+}
+
+Status Open(const std::filesystem::path& path, std::ifstream& file) {
+  if (const Status regular = CheckRegularFile(path); !regular) {
+    return regular;
+  }
+  file.open(path, std::ios::binary);
+  return file ? Ok()
+              : Status(UnavailableError(path.string() + ": cannot be read; check its permissions"));
 }
 
 /// Calls take(numbers) for every line of at least `least` numbers. Comments, empty lines and
@@ -122,31 +131,13 @@ Result<Points> ReadPly(const std::filesystem::path& path, std::ifstream& file) {
   return points;
 }
 
-/// No pipe and no device: one may never end, and none can be read from its start again.
-Result<std::ifstream> OpenPoints(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    return InvalidError(path.string() + " is a folder; give the file of points");
-  }
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
-    return UnavailableError(path.string() +
-                            ": is no file on disk; save the points as a file and name that");
-  }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    return UnavailableError("cannot read " + path.string() + ": does the file exist?");
-  }
-  return Result<std::ifstream>(std::move(file));
-}
-
 }  // namespace
 
 Result<std::vector<Eigen::Vector3d>> ReadPointFile(const std::filesystem::path& path) {
-  auto opened = OpenPoints(path);
-  if (!opened) {
-    return opened.error();
+  std::ifstream file;
+  if (const Status open = Open(path, file); !open) {
+    return open.error();
   }
-  std::ifstream& file = *opened;
   std::string start(4, '\0');
   file.read(start.data(), 4);
   const bool ply = start.rfind("ply", 0) == 0;
@@ -164,11 +155,10 @@ Result<std::vector<Eigen::Vector3d>> ReadPointFile(const std::filesystem::path& 
 }
 
 Result<std::vector<LabelledPoint>> ReadLabelledPoints(const std::filesystem::path& path) {
-  auto opened = OpenPoints(path);
-  if (!opened) {
-    return opened.error();
+  std::ifstream file;
+  if (const Status open = Open(path, file); !open) {
+    return open.error();
   }
-  std::ifstream& file = *opened;
   std::vector<LabelledPoint> points;
   const Status read = ReadLines(path, file, 4, [&](const std::vector<double>& numbers) {
     points.push_back({{numbers[0], numbers[1], numbers[2]}, numbers[3] == 1});

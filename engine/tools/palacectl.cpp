@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -118,7 +119,11 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::cerr << "palacectl: " << MistakeText(app, error) << "\n";
     return 2;
-  } catch (const std::exception& error) {  // memory or the file system, wherever it was
+  } catch (const std::bad_alloc&) {
+    std::cerr << "palacectl: out of memory; allow this program more (ulimit -v), end other "
+                 "programs, or give fewer cells or smaller pictures\n";
+    return ExitCode(1);
+  } catch (const std::exception& error) {  // the file system, wherever it was
     std::cerr << "palacectl: " << error.what() << "\n";
     return ExitCode(1);
   }

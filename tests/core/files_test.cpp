@@ -1,6 +1,8 @@
 // Files are read whole, and written whole or not at all.
 #include "engine/core/files.h"
 
+#include <sys/stat.h>
+
 #include <cstdlib>
 #include <fstream>
 #include <optional>
@@ -57,6 +59,19 @@ TEST_F(Files, ATextIsReadToTheLastByteAndNoLongerOneThanTheLimit) {
     ASSERT_FALSE(refused.ok()) << row.path;
     EXPECT_EQ(refused.error().code, row.code) << row.path;
     EXPECT_NE(refused.error().message.find(row.said), std::string::npos) << refused.error().message;
+  }
+}
+
+TEST_F(Files, APipeOrADeviceIsNoFileOnDisk) {
+  ASSERT_TRUE(MakeFolder(folder_).ok());
+  ASSERT_TRUE(WriteTextFile(folder_ / "a.txt", "").ok());
+  EXPECT_TRUE(CheckRegularFile(folder_ / "a.txt").ok());
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  for (const fs::path& path : {folder_ / "pipe", fs::path("/dev/zero"), fs::path("-")}) {
+    const Status refused = CheckRegularFile(path);
+    ASSERT_FALSE(refused.ok()) << path;
+    EXPECT_EQ(refused.error().message.find(path.string() + ": is no file on disk; save "), 0u)
+        << refused.error().message;
   }
 }
 

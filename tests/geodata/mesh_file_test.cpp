@@ -83,6 +83,16 @@ TEST_F(MeshFiles, PlyBothWaysAndWithOtherElements) {
   }
 }
 
+TEST_F(MeshFiles, AnElementWithoutPropertiesCostsNothingHoweverManyRowsItClaims) {
+  const auto mesh = Read(
+      "ply\nformat binary_little_endian 1.0\nelement nothing 9000000000000000000\n"
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+      BytesOf<float>({0, 0, 0, 1, 0, 0, 0, 1, 0.5F}) + "\x03" + BytesOf<std::int32_t>({0, 1, 2}));
+  ASSERT_TRUE(mesh.ok()) << mesh.error().message;
+  EXPECT_EQ(mesh->triangles, (std::vector<Corners>{{0, 1, 2}}));
+}
+
 TEST_F(MeshFiles, AnOpenMeshSaysWhere) {
   std::string open = kTetrahedron;
   open.resize(open.rfind("f -3"));
@@ -144,7 +154,8 @@ TEST_F(MeshFiles, WhatIsNoMeshIsNamed) {
     EXPECT_THAT(mesh.error().message, HasSubstr(path_.string())) << row.what;
   }
   EXPECT_THAT(ReadMeshFile(path_.parent_path()).error().message, HasSubstr("is a folder"));
-  EXPECT_THAT(ReadMeshFile("/nowhere.obj").error().message, HasSubstr("does the file exist"));
+  EXPECT_THAT(ReadMeshFile("/nowhere.obj").error().message, HasSubstr("no such file"));
+  EXPECT_THAT(ReadMeshFile("/dev/zero").error().message, HasSubstr("is no file on disk"));
 }
 
 TEST_F(MeshFiles, AHugeMeshIsRefusedAtTheLimit) {

@@ -137,7 +137,7 @@ TEST_F(Imported, WhatCannotBeFlownIsNamedWithItsLine) {
       {"[[mesh]]\nat = [10, 4]\nfile = \"open.obj\"\n",
        {"world.toml:3: mesh.file: ", "open.obj: is open: 4 edges", "open = true"}},
       {"[[mesh]]\nat = [10, 4]\nfile = \"empty.obj\"\n", {":3: mesh.file: ", "has no triangles"}},
-      {"[[mesh]]\nat = [10, 4]\nfile = \"none.obj\"\n", {":3: ", "does the file exist"}},
+      {"[[mesh]]\nat = [10, 4]\nfile = \"none.obj\"\n", {":3: ", "none.obj: no such file"}},
       {"[[mesh]]\nat = [10, 4]\nfile = \"block.obj\"\nscale = 100\n",
        {"reaches over", "the limit is 100 m"}},
       {"[[mesh]]\nat = [10, 4]\nfile = \"block.obj\"\nscale = 0\n", {":4: ", "0.0001", "1000"}},
