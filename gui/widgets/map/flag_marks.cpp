@@ -166,6 +166,9 @@ ImVec2 FlagLegendSize(const Style& style, unsigned flags, bool in_row) {
       ++lines;
     }
   }
+  if (lines == 0) {
+    return {0, 0};
+  }
   const float margin = style.Px(12);
   return in_row ? ImVec2(sum + margin, style.Px(kLine + 6))
                 : ImVec2(widest + margin, style.Px(kLine * static_cast<float>(lines) + 6));

@@ -20,7 +20,7 @@ void DrawFlagsOnPicture(const Style& style, const PictureView& view, const GridG
 
 /// All bits that occur.
 unsigned FlagsPresent(const Grid<std::uint8_t>& flags);
-/// Size of the legend of these flags, shapes with words, beside or below each other.
+/// Size of the legend of these flags, shapes with words, beside or below each other; 0 of none.
 ImVec2 FlagLegendSize(const Style& style, unsigned flags, bool in_row);
 /// The legend, `at` its upper left corner.
 void DrawFlagLegend(UiFrame& ui, ImVec2 at, unsigned flags, bool in_row);

@@ -77,7 +77,10 @@ TEST(FlagMarks, NothingWithoutFlags) {
         Drawn(ui, [&](UiFrame& frame) { DrawFlagsOnMap(frame.style, square, flags); }).empty());
     EXPECT_EQ(FlagsPresent(flags), 0u);
   }
-  EXPECT_EQ(FlagLegendWidth(ui.style, 0), 0);
+  for (const bool in_row : {true, false}) {
+    EXPECT_EQ(FlagLegendSize(ui.style, 0, in_row).x, 0);
+    EXPECT_EQ(FlagLegendSize(ui.style, 0, in_row).y, 0);
+  }
 }
 
 /// Looking straight down from 10 m: the cell straight below is in the middle of the picture.
