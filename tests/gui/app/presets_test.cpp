@@ -28,7 +28,7 @@ TEST_F(Presets, AreSavedWhereChosenAndNotOverAnotherUnasked) {
   const fs::path file = folder_ / "new" / "field.toml";
   Settings now;
   EXPECT_FALSE(LookAt(file, now).exists);
-  EXPECT_NE(LookAt(file, now).problem.find("does not exist"), std::string::npos);
+  EXPECT_NE(LookAt(file, now).problem.find("no such file"), std::string::npos);
   ASSERT_TRUE(SavePresetFile(file, now, false));
   EXPECT_TRUE(LookAt(file, now).exists);
   EXPECT_EQ(LookAt(file, now).problem, "");
