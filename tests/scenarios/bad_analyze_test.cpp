@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
                  false,
                  {"analyze", "--elevation", "no.tif", "--out", "out"},
                  1,
-                 {"no.tif", "exist"}},
+                 {"no.tif", "no such file"}},
         BadInput{"ElevationIsText",
                  false,
                  {"analyze", "--elevation", "file", "--out", "out"},
