@@ -320,7 +320,8 @@ Status WriteGeoTiff(const std::filesystem::path& path, const MapLayer& layer) {
   return Ok();
 }
 
-Result<MapLayer> ReadGeoTiff(const std::filesystem::path& path) {
+Result<MapLayer> ReadGeoTiff(const std::filesystem::path& path,
+                             const std::function<Status(const GridGeometry&)>& room) {
   if (const Status regular = CheckRegularFile(path); !regular) {
     return regular.error();
   }
@@ -353,6 +354,9 @@ Result<MapLayer> ReadGeoTiff(const std::filesystem::path& path) {
   layer.geometry.cols = static_cast<int>(cols);
   if (const Status place = ReadPlace(path, file.get(), layer); !place) {
     return place.error();
+  }
+  if (const Status fits = room ? room(layer.geometry) : Ok(); !fits) {
+    return Error{fits.error().code, path.string() + ": " + fits.error().message};
   }
   layer.cells = GridF(layer.geometry.rows, layer.geometry.cols, kUnknownValue);
   if (!ReadCells(file.get(), type, layer.cells)) {

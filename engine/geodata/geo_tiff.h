@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "engine/core/result.h"
@@ -22,7 +23,9 @@ Status WriteGeoTiff(const std::filesystem::path& path, const MapLayer& layer);
 /// Reads one-band strips or tiles of 8 to 64 bits; no-data becomes NaN. Refuses, saying what to do:
 /// files without a place, rotated, in degrees, in feet, with cells that are not square or not
 /// between 1 mm and 1 km, farther than 130 000 km from their origin, larger than 8192 cells a side,
-/// with a no-data value that is no number, cut off, or no TIFF at all.
-Result<MapLayer> ReadGeoTiff(const std::filesystem::path& path);
+/// with a no-data value that is no number, cut off, or no TIFF at all. `room` is asked before the
+/// cells are read, and what it refuses is refused with the file's name.
+Result<MapLayer> ReadGeoTiff(const std::filesystem::path& path,
+                             const std::function<Status(const GridGeometry&)>& room = {});
 
 }  // namespace palace

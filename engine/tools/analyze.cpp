@@ -15,6 +15,7 @@
 #include "engine/tools/analyze_inputs.h"
 #include "engine/tools/analyze_outcome.h"
 #include "engine/tools/explanation_json.h"
+#include "engine/tools/stage_progress.h"
 
 namespace palace {
 namespace {
@@ -84,10 +85,17 @@ Status Analyze(const Options& options) {
   if (!settings) {
     return settings.error();
   }
+  const StageProgress progress("analyze");
+  progress.Begin("reading (1 of 3)");
   auto input = LoadInput(options, *settings);
   if (!input) {
     return input.error();
   }
+  const GridGeometry& grid = input->slad.elevation()->geometry;
+  if (const Status room = RoomToDecide(grid, settings->slad.mode, "ask for larger cells"); !room) {
+    return room;
+  }
+  progress.Begin(WithNumbers("judging %.0f x %.0f cells (2 of 3)", grid.cols, grid.rows));
   AnalyzeOutcome o{{}, options.settings_file, std::move(input).value(), *settings};
   for (const std::string* file : {&options.left, &options.right, &options.rig, &options.poses,
                                   &options.euroc, &options.elevation, &options.points}) {
@@ -99,14 +107,17 @@ Status Analyze(const Options& options) {
   o.input.watch.Lap("decide");
   o.settings.slad.grid.cell_m = o.map().geometry.cell_m;
   WarnOfCell(o.settings.slad, o.input.warnings);
+  progress.End();
   for (const std::string& text : options.explain) {
     const auto cell = ParseCell(text);  // checked with the options
     o.explained.push_back(ExplainCell(o.map(), o.hazards(), o.settings.slad, *cell));
     std::printf("cell %d,%d: %s\n", cell->row, cell->col, o.explained.back().verdict.c_str());
   }
+  progress.Begin("writing (3 of 3)");
   if (const Status done = PublishAnalysis(o, options.out); !done) {
     return done;
   }
+  progress.End();
   for (const std::string& warning : o.input.warnings) {
     std::cerr << "palacectl: warning: " << warning << '\n';
   }

@@ -42,7 +42,12 @@ struct AnalyzeInput {
 /// the map of the newest, with a warning. Several pairs need poses.
 Result<AnalyzeInput> ElevationOfPairs(const PairFiles& files, const Settings& settings);
 
-/// Keeps the grid of the model unless cell_m is given. X east, Y north, Z up.
+/// Whether this program may have the memory that deciding over such a map takes beside it; else an
+/// error that tells how much that is, and ends in the remedy.
+Status RoomToDecide(const GridGeometry& map, SladMode mode, const std::string& remedy);
+
+/// Keeps the grid of the model unless cell_m is given. X east, Y north, Z up. Refuses, before it
+/// reads the cells, a model that there is no room to decide over.
 Result<AnalyzeInput> ElevationOfModel(const std::filesystem::path& path,
                                       std::optional<double> cell_m, const Settings& settings);
 

@@ -1,5 +1,10 @@
 // palacectl analyze on elevation models, good and bad: a site on real ground, a reason why there is
 // none, or one message that names the file and what to do.
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -241,6 +246,49 @@ TEST_F(SurveyInput, NamesThatAreNoUtf8AreNamed) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   std::ifstream json_file(folder_ / "out/site.json");
   EXPECT_TRUE(nlohmann::json::parse(json_file, nullptr, false).is_object());
+}
+
+/// The bytes are counted before the cells are read, of which this file has few.
+TEST_F(SurveyInput, AModelThatThereIsNoRoomForIsToldWithItsBytes) {
+  WriteFile("dem.tif", Dem([](TiffFile& t) { t.rows = t.cols = 8192; }));
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"--set", "slad.mode=thesis"}, {"--cell-m", "3"}}) {
+    std::vector<std::string> words = {"analyze", "--elevation", "dem.tif", "--out", "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    ProcessOptions analyze = Palacectl(words);
+    analyze.prepare = [] {
+      const rlimit limit{rlim_t{6} << 30, rlim_t{6} << 30};
+      return setrlimit(RLIMIT_AS, &limit) == 0;
+    };
+    const ProcessResult refused = RunProcess(analyze, kLimit_s);
+    EXPECT_EQ(refused.exit_code, 1);
+    for (const char* part : {"dem.tif: 8192 x 8192 cells: out of memory", " MiB",
+                             "or cut the model with gdal_translate -srcwin"}) {
+      EXPECT_NE(refused.err.find(part), std::string::npos) << part << ": " << refused.err;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+  }
+}
+
+/// Whoever waits at a terminal sees the stage; a file of messages holds none.
+TEST_F(SurveyInput, StagesAreShownOnATerminal) {
+  WriteFile("dem.tif", Dem());
+  ProcessOptions analyze = Palacectl({"analyze", "--elevation", "dem.tif", "--out", "out"});
+  EXPECT_EQ(RunProcess(analyze, kLimit_s).err.find("reading"), std::string::npos);
+  const int master = posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_TRUE(master >= 0 && grantpt(master) == 0 && unlockpt(master) == 0);
+  analyze.prepare = [name = std::string(ptsname(master))] {
+    return dup2(open(name.c_str(), O_RDWR | O_NOCTTY), STDERR_FILENO) >= 0;
+  };
+  EXPECT_EQ(RunProcess(analyze, kLimit_s).exit_code, 0);
+  char shown[4096] = {};
+  const ssize_t size = read(master, shown, sizeof shown - 1);
+  close(master);
+  ASSERT_GT(size, 0);
+  for (const char* stage : {"analyze: reading (1 of 3) ...", "judging 40 x 40 cells (2 of 3) ...",
+                            "writing (3 of 3) ..."}) {
+    EXPECT_NE(std::string(shown).find(stage), std::string::npos) << stage << ": " << shown;
+  }
 }
 
 }  // namespace
