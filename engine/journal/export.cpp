@@ -1,7 +1,6 @@
 #include "engine/journal/export.h"
 
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <system_error>
@@ -109,12 +108,8 @@ class Exporter {
     std::vector<ExportedTable> written;
     for (const auto& [name, table] : tables_) {
       const std::filesystem::path path = folder / name;
-      std::ofstream file(path, std::ios::binary | std::ios::trunc);
-      file << table.text;
-      file.close();
-      if (!file) {
-        return UnavailableError(path.string() +
-                                ": cannot be written; choose another folder or free space");
+      if (const Status whole = WriteTextFile(path, table.text); !whole) {
+        return whole.error();
       }
       written.push_back({path, table.rows});
     }

@@ -1,6 +1,9 @@
 // Tables of a log: columns with units, full precision, every action and event by its name.
 #include "engine/journal/export.h"
 
+#include <signal.h>
+#include <sys/resource.h>
+
 #include <fstream>
 #include <map>
 
@@ -125,6 +128,26 @@ TEST_F(ReplayTest, ExportsTablesWithUnitsAndFullPrecision) {
   EXPECT_EQ(header.rfind("time_us,north_m,east_m,down_m,", 0), 0u) << header;
   const std::size_t comma = row.find(',');
   EXPECT_EQ(std::stod(row.substr(comma + 1)), flight_.items[0].bundle->truth[0].X_WB.p.x());
+}
+
+/// A table that does not fit has no name: what bears one is whole.
+TEST_F(ReplayTest, AFullDiskLeavesNoCutTable) {
+  constexpr rlim_t kRoom = 3000;  // bytes a file
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto ignored = signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{kRoom, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const auto tables = ExportCsv(flight_.log, folder_ / "csv");
+  setrlimit(RLIMIT_FSIZE, &before);
+  signal(SIGXFSZ, ignored);
+  ASSERT_FALSE(tables.ok());
+  EXPECT_NE(tables.error().message.find(".csv; choose a folder"), std::string::npos)
+      << tables.error().message;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "csv")) {
+    EXPECT_EQ(entry.path().extension(), ".csv");
+    EXPECT_LT(entry.file_size(), kRoom) << entry.path();
+  }
 }
 
 }  // namespace
