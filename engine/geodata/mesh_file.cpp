@@ -143,30 +143,21 @@ class PlyMeshReader {
     }
     for (const PlyElement& element : header->elements) {
       const Status read = element.name == "vertex" ? ReadVertices(element, header->binary)
-                          : element.name == "face" ? ReadFaces(element, header->binary)
-                                                   : PassOver(element, header->binary);
+                          : element.name == "face"
+                              ? ReadFaces(element, header->binary)
+                              : PassOver(path_, file_, header->binary, element);
       if (!read) {
         return read.error();
       }
+    }
+    if (const Status end = CheckPlyEnd(path_, file_, *header); !end) {
+      return end.error();
     }
     return std::move(mesh_);
   }
 
  private:
   Error Here(const std::string& what) const { return InvalidError(path_.string() + ": " + what); }
-
-  Status PassOver(const PlyElement& element, bool binary) {
-    if (binary && element.properties.empty()) {
-      return Ok();  // rows without bytes, as many as the header likes to claim
-    }
-    PlyRows rows(path_, file_, binary, element, element.name + " row");
-    for (std::size_t n = 0; n < element.count; ++n) {
-      if (const Status read = rows.Next(); !read) {
-        return read;
-      }
-    }
-    return Ok();
-  }
 
   Status ReadVertices(const PlyElement& element, bool binary) {
     const std::size_t x = element.IndexOf("x"), y = element.IndexOf("y"), z = element.IndexOf("z");

@@ -1,5 +1,6 @@
 #include "engine/geodata/ply_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -61,6 +62,23 @@ Result<PlyProperty> ReadProperty(const std::filesystem::path& path, std::size_t 
   return property;
 }
 
+template <typename Named>
+bool Holds(const std::vector<Named>& all, const std::string& name) {
+  return std::any_of(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+}
+
+/// Whether the data are binary.
+Result<bool> ReadFormat(const std::filesystem::path& path, std::size_t line,
+                        std::istringstream& words) {
+  std::string type;
+  words >> type;
+  if (type != "ascii" && type != "binary_little_endian") {
+    return ErrorAtLine(path, line,
+                       "format " + QuotedLine(type) + "; save it as ascii or binary_little_endian");
+  }
+  return type != "ascii";
+}
+
 Result<PlyElement> ReadElement(const std::filesystem::path& path, std::size_t line,
                                std::istringstream& words) {
   PlyElement element;
@@ -85,8 +103,10 @@ std::size_t PlyElement::IndexOf(std::string_view property) const {
 
 Result<PlyHeader> ReadPlyHeader(const std::filesystem::path& path, std::istream& file) {
   PlyHeader header;
+  std::size_t format_line = 0;
   std::string line;
-  for (std::size_t n = 1; std::getline(file, line) && !file.eof(); ++n) {
+  while (std::getline(file, line) && !file.eof()) {
+    const std::size_t n = ++header.lines;
     std::istringstream words(line);
     std::string word;
     words >> word;
@@ -94,17 +114,26 @@ Result<PlyHeader> ReadPlyHeader(const std::filesystem::path& path, std::istream&
       return header;
     }
     if (word == "format") {
-      std::string type;
-      words >> type;
-      if (type != "ascii" && type != "binary_little_endian") {
-        return ErrorAtLine(path, n,
-                      "format " + QuotedLine(type) + "; save it as ascii or binary_little_endian");
+      const Result<bool> binary = ReadFormat(path, n, words);
+      if (!binary) {
+        return binary.error();
       }
-      header.binary = type != "ascii";
+      if (format_line != 0) {
+        return ErrorAtLine(path, n,
+                           "a second format, after that of line " + std::to_string(format_line) +
+                               "; keep the true one");
+      }
+      format_line = n;
+      header.binary = *binary;
     } else if (word == "element") {
       Result<PlyElement> element = ReadElement(path, n, words);
       if (!element) {
         return element.error();
+      }
+      if (Holds(header.elements, element->name)) {
+        return ErrorAtLine(path, n,
+                           "a second element " + QuotedLine(element->name) +
+                               "; join its rows with those of the first");
       }
       header.elements.push_back(std::move(*element));
     } else if (word == "property" && !header.elements.empty()) {
@@ -112,10 +141,36 @@ Result<PlyHeader> ReadPlyHeader(const std::filesystem::path& path, std::istream&
       if (!property) {
         return property.error();
       }
+      if (Holds(header.elements.back().properties, property->name)) {
+        return ErrorAtLine(path, n,
+                           "a second property " + QuotedLine(property->name) +
+                               " of one element; name the true one alone");
+      }
       header.elements.back().properties.push_back(std::move(*property));
     }
   }
   return InvalidError(path.string() + ": no end_header; the PLY file is cut off");
+}
+
+Status CheckPlyEnd(const std::filesystem::path& path, std::istream& file, const PlyHeader& header) {
+  std::size_t line = header.lines + 1;
+  std::string counts;
+  for (const PlyElement& element : header.elements) {
+    line += element.count;
+    counts += (counts.empty() ? "" : ", ") + std::to_string(element.count) + " of " +
+              QuotedLine(element.name);
+  }
+  int next = file.get();
+  for (; next == ' ' || next == '\t' || next == '\r' || next == '\n'; next = file.get()) {
+    line += next == '\n' ? 1 : 0;
+  }
+  if (next == std::char_traits<char>::eof()) {
+    return Ok();
+  }
+  const std::string what = "more data than the header counts (" + counts +
+                           "); correct its element lines, or cut the rest off";
+  return header.binary ? Status(InvalidError(path.string() + ": " + what))
+                       : Status(ErrorAtLine(path, line, what));
 }
 
 PlyRows::PlyRows(std::filesystem::path path, std::istream& file, bool binary,
@@ -193,6 +248,20 @@ Status PlyRows::NextBinary() {
       if (!take(property.type, value)) {
         return cut();
       }
+    }
+  }
+  return Ok();
+}
+
+Status PassOver(const std::filesystem::path& path, std::istream& file, bool binary,
+                const PlyElement& element) {
+  if (binary && element.properties.empty()) {
+    return Ok();  // rows without bytes, as many as the header likes to claim
+  }
+  PlyRows rows(path, file, binary, element, element.name + " row");
+  for (std::size_t n = 0; n < element.count; ++n) {
+    if (const Status read = rows.Next(); !read) {
+      return read;
     }
   }
   return Ok();

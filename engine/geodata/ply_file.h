@@ -30,11 +30,15 @@ struct PlyElement {
 
 struct PlyHeader {
   bool binary = false;
+  std::size_t lines = 0;  ///< of the header itself
   std::vector<PlyElement> elements{};
 };
 
-/// Errors name file and line.
+/// Errors name file and line. Refuses two formats, and two elements or properties of one name.
 Result<PlyHeader> ReadPlyHeader(const std::filesystem::path& path, std::istream& file);
+
+/// After the rows of all elements: refuses more of them than the header counts, with their line.
+Status CheckPlyEnd(const std::filesystem::path& path, std::istream& file, const PlyHeader& header);
 
 /// Reads the rows of one element in turn. `what` they are, for messages: "point".
 class PlyRows {
@@ -65,5 +69,9 @@ class PlyRows {
   std::string line_;
   std::vector<double> numbers_;
 };
+
+/// Reads the rows of an element that nobody wants.
+Status PassOver(const std::filesystem::path& path, std::istream& file, bool binary,
+                const PlyElement& element);
 
 }  // namespace palace

@@ -69,7 +69,8 @@ Status ReadLines(const std::filesystem::path& path, std::ifstream& file, std::si
                              "; write decimals with a point");
     }
     if (ParseNumbers(line, kMostColumns, numbers) < least) {
-      if (columns == 0 && numbers.empty()) {
+      const bool begins_a_number = std::strchr("0123456789+-.", line[first]) != nullptr;
+      if (columns == 0 && numbers.empty() && !begins_a_number) {
         continue;  // a heading
       }
       return ErrorAtLine(path, n,
@@ -127,6 +128,14 @@ Result<Points> ReadPly(const std::filesystem::path& path, std::ifstream& file) {
       return read.error();
     }
     points.emplace_back(rows.Value(column[0]), rows.Value(column[1]), rows.Value(column[2]));
+  }
+  for (auto other = vertex + 1; other != header->elements.end(); ++other) {
+    if (const Status read = PassOver(path, file, header->binary, *other); !read) {
+      return read.error();
+    }
+  }
+  if (const Status end = CheckPlyEnd(path, file, *header); !end) {
+    return end.error();
   }
   return points;
 }

@@ -1,5 +1,6 @@
 #include "engine/geodata/text_lines.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace palace {
@@ -18,7 +19,9 @@ std::size_t ParseNumbers(const std::string& line, std::size_t most, std::vector<
     }
     char* end = nullptr;
     const double value = std::strtod(at, &end);
-    if (end == at || !(Parts(*end) || *end == '\0')) {
+    const bool hexadecimal =
+        std::any_of(at, static_cast<const char*>(end), [](char c) { return c == 'x' || c == 'X'; });
+    if (end == at || hexadecimal || !(Parts(*end) || *end == '\0')) {
       break;
     }
     numbers.push_back(value);

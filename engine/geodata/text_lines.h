@@ -10,7 +10,8 @@
 
 namespace palace {
 
-/// Up to `most` numbers parted by blanks, commas or semicolons; stops at the first other word.
+/// Up to `most` decimal numbers parted by blanks, commas or semicolons; stops at the first other
+/// word, such as 0x1F, which surveys hold by mistake only.
 /// Returns how many there are.
 std::size_t ParseNumbers(const std::string& line, std::size_t most, std::vector<double>& numbers);
 

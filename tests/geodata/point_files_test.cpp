@@ -101,5 +101,51 @@ TEST_F(PointFiles, DataBeforeTheVerticesAreRefusedWhereverTheyStand) {
   }
 }
 
+TEST_F(PointFiles, APlyHeaderThatSaysTwoThingsIsRefusedWithItsLine) {
+  const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+  const std::string rows = "0 0 0\n1 0 0\n0 1 0\n";
+  const struct {
+    std::string text;
+    const char* said;
+  } cases[] = {
+      {"ply\nformat ascii 1.0\nformat binary_little_endian 1.0\nelement vertex 3\n" + xyz +
+           "end_header\n" + rows,
+       ":3: a second format, after that of line 2"},
+      {"ply\nformat ascii 1.0\nelement vertex 3\n" + xyz + "element vertex 1\n" + xyz +
+           "end_header\n" + rows + "9 9 9\n",
+       ":7: a second element \"vertex\""},
+      {"ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n" + xyz + "end_header\n" + rows,
+       ":5: a second property \"x\""},
+      {"ply\nformat ascii 1.0\nelement vertex 3\n" + xyz + "end_header\n" + rows + "\n9 9 9\n",
+       ":12: more data than the header counts (3 of \"vertex\")"},
+      {PlyBytes({0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 9, 9}, "binary_little_endian", 3),
+       ": more data than the header counts (3 of \"vertex\")"},
+  };
+  for (const auto& wrong : cases) {
+    Write(wrong.text);
+    const auto points = ReadPointFile(path_);
+    ASSERT_FALSE(points.ok()) << wrong.said;
+    EXPECT_EQ(points.error().message.find(path_.string() + wrong.said), 0u)
+        << points.error().message;
+  }
+  // Faces after the vertices, and blank lines at the end, are no mistake.
+  Write("ply\nformat ascii 1.0\nelement vertex 3\n" + xyz +
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n" + rows +
+        "3 0 1 2\n\n");
+  EXPECT_TRUE(ReadPointFile(path_).ok());
+}
+
+TEST_F(PointFiles, HexadecimalNumbersAreRefusedWithTheirLine) {
+  for (const auto& [text, line] : {std::pair{"1 2 3\n0x10 2 3\n4 5 6\n7 8 9\n", ":2: "},
+                                   std::pair{"0x10 2 3\n1 2 3\n4 5 6\n7 8 9\n", ":1: "},
+                                   std::pair{"1 2 3\n4 5 6\n7 8 -0X1p3\n1 1 1\n", ":3: "}}) {
+    Write(text);
+    const auto points = ReadPointFile(path_);
+    ASSERT_FALSE(points.ok()) << text;
+    EXPECT_EQ(points.error().message.find(path_.string() + line + "expected x y z, found"), 0u)
+        << points.error().message;
+  }
+}
+
 }  // namespace
 }  // namespace palace
