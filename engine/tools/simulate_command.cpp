@@ -75,6 +75,11 @@ bool IsPaced(const SimulateOptions& options) {
 }
 
 Status CheckOptions(const SimulateOptions& options) {
+  if (options.url && options.url->find_first_not_of(" \t") == std::string::npos) {
+    return UsageError(
+        "--url is empty, which LCM takes for its default bus; name one, e.g. "
+        "udpm://239.255.76.67:7667?ttl=0, or leave --url out");
+  }
   if (!options.keys.empty() && !IsOnABus(options)) {
     return UsageError("--key is for stations on a bus; give --url too, or leave it out");
   }

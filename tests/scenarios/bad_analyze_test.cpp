@@ -33,6 +33,7 @@ INSTANTIATE_TEST_SUITE_P(
                  {"evaluate", "landing", "--trials", "1", "--vehicle", "zeppelin"},
                  2,
                  {"zeppelin", "multirotor, r50"}},
+        BadInput{"SimulateOnAnUnnamedBus", false, {"simulate", "--url", ""}, 2, {"--url is empty"}},
         BadInput{"KeyOfALog",
                  false,
                  {"simulate", "--log", "out", "--key", "heli-1"},
