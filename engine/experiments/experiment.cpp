@@ -1,11 +1,15 @@
 #include "engine/experiments/experiment.h"
 
+#include <unistd.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <latch>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <utility>
@@ -175,13 +179,16 @@ int WriteEnded(const Experiment& experiment, TrialFile file, int done, const fs:
   return WriteResults(experiment, file, out);
 }
 
-/// The rows of a trial: as the record has them, or run now and kept there.
+/// The rows of a trial: as the record has them, or run now, out of `hand`, and kept there.
 Result<std::vector<TrialRow>> RunTrial(const Experiment& experiment, int trial, std::uint64_t seed,
-                                       std::optional<TrialRecord>& record) {
+                                       std::optional<TrialRecord>& record,
+                                       std::unique_lock<std::mutex>& hand) {
   if (record && record->Done(trial) != nullptr) {
     return *record->Done(trial);
   }
+  hand.unlock();
   Result<std::vector<TrialRow>> rows = experiment.run(trial, seed);
+  hand.lock();
   if (rows && record) {
     if (const Status kept = record->Add(trial, *rows); !kept) {
       return kept.error();
@@ -209,10 +216,51 @@ Result<TrialRecord> OpenRecord(const Experiment& experiment, const TrialHeader& 
                            options.resume);
 }
 
+/// The trials that are done, shared with the thread that is told of a signal: a trial may take
+/// minutes, and whoever wants an end does not wait for it.
+class DoneTrials {
+ public:
+  DoneTrials(const Experiment& experiment, const fs::path& out)
+      : experiment_(experiment), out_(out) {}
+
+  TrialFile& file() { return file_; }
+  /// Held while trials are added or written, not while one is run.
+  std::mutex& hand() { return hand_; }
+  /// So many are in the file; under `hand`.
+  void Have(int trials) { done_ = trials; }
+  /// Whether trials run; under `hand`.
+  void Run(bool running) { running_ = running; }
+
+  /// What is done is written, the trial that runs is given up, and the program ends.
+  [[noreturn]] void End(int exit_code) {
+    const std::lock_guard held(hand_);
+    if (running_) {
+      std::cerr << "\npalacectl: the trial in hand is given up\n";
+      (void)WriteEnded(experiment_, std::move(file_), done_, out_);
+    }
+    std::cout.flush();
+    std::fflush(stdout);
+    _exit(exit_code);  // the other thread is in its trial
+  }
+
+ private:
+  const Experiment& experiment_;
+  const fs::path out_;
+  std::mutex hand_;
+  TrialFile file_;
+  int done_ = 0;
+  bool running_ = false;
+};
+
 int RunExperiment(const Experiment& experiment, const RunOptions& options) {
-  const Termination termination([] {  // a trial may take minutes
-    std::cerr << "\npalacectl: ends after the trial in hand; a second signal ends it at once\n";
+  DoneTrials done(experiment, options.out);
+  std::latch termination_made(1);
+  const Termination termination([&] {
+    termination_made.wait();
+    done.End(termination.exit_code());
   });
+  termination_made.count_down();
+  std::unique_lock hand(done.hand());  // given back before the other thread is waited for
   const Result<Shard> shard = ParseShard(options.shard);
   if (!shard) {
     return Fail(shard.error());
@@ -228,7 +276,7 @@ int RunExperiment(const Experiment& experiment, const RunOptions& options) {
       return Fail(made.error());
     }
   }
-  TrialFile file;
+  TrialFile& file = done.file();
   file.header = {experiment.name, experiment.setup ? experiment.setup() : "defaults", options.seed,
                  options.trials, *shard};
   file.table.columns = {"trial", "seed"};
@@ -261,17 +309,13 @@ int RunExperiment(const Experiment& experiment, const RunOptions& options) {
       std::cerr << "palacectl: " << record->done_count() << " trials were done before\n";
     }
   }
+  done.Run(true);
   for (int trial = 0; trial < options.trials; ++trial) {
     if (!shard->Holds(trial)) {
       continue;
     }
-    if (termination.asked()) {
-      std::fputc('\n', stderr);
-      (void)WriteEnded(experiment, std::move(file), trial, options.out);
-      return termination.exit_code();
-    }
     const std::uint64_t seed = TrialSeed(options.seed, trial);
-    const Result<std::vector<TrialRow>> rows = RunTrial(experiment, trial, seed, record);
+    const Result<std::vector<TrialRow>> rows = RunTrial(experiment, trial, seed, record, hand);
     if (!rows) {
       return Fail(rows.error());
     }
@@ -281,9 +325,11 @@ int RunExperiment(const Experiment& experiment, const RunOptions& options) {
       row.insert(row.end(), values.begin(), values.end());
       file.table.rows.push_back(std::move(row));
     }
+    done.Have(trial + 1);
     std::fprintf(stderr, "\r%s: trial %d of %d", experiment.name.c_str(), trial + 1,
                  options.trials);
   }
+  done.Run(false);
   std::fputc('\n', stderr);
   if (const Status written = WriteCsv(file, options.out); !written) {
     return Fail(written.error());

@@ -34,7 +34,7 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
   CLI::App* evaluate = app.add_subcommand(
       "evaluate",
       "Experiments with seeds and intervals. Ctrl-C, SIGTERM and SIGHUP end "
-      "one after the trial in hand: the trials done are reported and, with --out, "
+      "one and give up the trial in hand: the trials done are reported and, with --out, "
       "written; those of a shard are not, only whole ones can be merged. --resume "
       "goes on. Exit 128 + signal");
   evaluate->require_subcommand(1);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -14,7 +15,6 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/core/command_line.h"
-#include "engine/core/termination.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/faults/fault_injector.h"
@@ -24,6 +24,7 @@
 #include "engine/model/mission/fault_events.h"
 #include "engine/simulation/session.h"
 #include "engine/simulation/vehicle_file.h"
+#include "engine/tools/simulate_end.h"
 #include "engine/tools/simulate_export.h"
 #include "engine/trust/key_file.h"
 #include "engine/wire/bus.h"
@@ -185,7 +186,7 @@ class FaultTeller {
 
 /// Flies until the end, a signal or an error.
 Result<std::uint64_t> Fly(Source& source, FaultInjector& faults, VehicleServer* server,
-                          LogWriter* log, const ChannelNames& channels, std::stop_token stop) {
+                          LogWriter* log, const ChannelNames& channels, SimulateEnd& end) {
   FaultTeller teller;
   std::jthread receiver;
   if (server != nullptr) {
@@ -196,12 +197,15 @@ Result<std::uint64_t> Fly(Source& source, FaultInjector& faults, VehicleServer* 
   }
   std::uint64_t bundles = 0;
   while (true) {
-    const auto bundle = source.Next(stop);
+    const auto bundle = source.Next(end.stop());
     if (!bundle) {
+      end.Over();
       return bundle.error().code == ErrorCode::kEnd ? Result<std::uint64_t>(bundles)
                                                     : Result<std::uint64_t>(bundle.error());
     }
     ++bundles;
+    const std::lock_guard hand(end.hand());
+    end.HaveFlown();
     std::vector<WireMessage> sent =
         faults.touched() ? faults.Strike(**bundle) : EncodeBundle(**bundle, channels);
     Status done = server != nullptr ? server->Publish(sent, (*bundle)->time) : Ok();
@@ -270,15 +274,19 @@ Result<std::unique_ptr<VehicleServer>> OpenServer(const SimulateOptions& options
 /// Flies into the log, if one is asked for.
 Result<std::uint64_t> FlyIntoLog(const SimulateOptions& options, Source& source,
                                  FaultInjector& faults, VehicleServer* server,
-                                 const ChannelNames& channels, std::stop_token stop) {
+                                 const ChannelNames& channels, SimulateEnd& end) {
   if (options.log.empty()) {
-    return Fly(source, faults, server, nullptr, channels, stop);
+    return Fly(source, faults, server, nullptr, channels, end);
   }
+  std::unique_lock hand(end.hand());
   Result<LogWriter> log = LogWriter::Create(options.log);
   if (!log) {
     return log.error();
   }
-  Result<std::uint64_t> bundles = Fly(source, faults, server, &*log, channels, stop);
+  end.Writes(&*log);
+  hand.unlock();
+  Result<std::uint64_t> bundles = Fly(source, faults, server, &*log, channels, end);
+  end.Over();
   const Status closed = log->Close();
   if (!bundles && log->events() == 0) {  // no empty log stays behind
     std::error_code ignored;
@@ -299,8 +307,7 @@ int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) 
   if (const Status fits = CheckPlan(options, *plan); !fits) {
     return Fail(fits.error());
   }
-  std::stop_source flight;
-  const Termination termination([flight]() mutable { flight.request_stop(); });
+  SimulateEnd end;
   const Result<SimulatedSession> session = OpenSession(options, cameras);
   if (!session) {
     return Fail(session.error());
@@ -319,21 +326,25 @@ int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) 
   std::shared_ptr<Source> source = session->simulator;
   std::shared_ptr<ExportingSource> exporter;
   if (!options.export_folder.empty()) {
-    auto made = ExportingSource::Create(*session, options.export_folder);
+    auto made = ExportingSource::Create(*session, options.export_folder, end.hand());
     if (!made) {
       return Fail(made.error());
     }
     source = exporter = std::move(made).value();
+    const std::lock_guard hand(end.hand());
+    end.Writes(exporter.get());
   }
   if (options.land) {
-    return EndExport(*exporter, simulator, FlyMission(*session, source, flight.get_token()));
+    const Status flown = FlyMission(*session, source, end.stop());
+    end.Over();
+    return EndExport(*exporter, simulator, flown);
   }
   FaultInjector faults(options.seed, *channels);
   if (const Status planned = faults.Add(*plan); !planned) {
     return Fail(planned.error());
   }
   const Result<std::uint64_t> bundles =
-      FlyIntoLog(options, *source, faults, server->get(), *channels, flight.get_token());
+      FlyIntoLog(options, *source, faults, server->get(), *channels, end);
   if (!bundles) {
     return Fail(bundles.error());
   }
@@ -360,7 +371,8 @@ void AddSimulateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
       app.add_subcommand("simulate",
                          "Fly the simulated vehicle on an LCM bus, into a log or into a folder "
                          "of EuRoC's layout. Ctrl-C, SIGTERM "
-                         "and SIGHUP end it in order, exit 0");
+                         "and SIGHUP end it in order, exit 0; before the first bundle it "
+                         "leaves nothing, exit 128 + signal");
   const auto options = std::make_shared<SimulateOptions>();
   command
       ->add_option("--scenario", options->scenario,

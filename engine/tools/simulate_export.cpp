@@ -9,7 +9,7 @@
 namespace palace {
 
 Result<std::unique_ptr<ExportingSource>> ExportingSource::Create(
-    const SimulatedSession& session, const std::filesystem::path& folder) {
+    const SimulatedSession& session, const std::filesystem::path& folder, std::mutex& hand) {
   const ImuNoise& noise = session.vehicle.sensors.imu;
   const ImuBiases biases = session.simulator->imu_biases();
   EurocImu imu;
@@ -26,7 +26,8 @@ Result<std::unique_ptr<ExportingSource>> ExportingSource::Create(
   if (!writer) {
     return writer.error();
   }
-  return std::unique_ptr<ExportingSource>(new ExportingSource(session, std::move(writer).value()));
+  return std::unique_ptr<ExportingSource>(
+      new ExportingSource(session, std::move(writer).value(), hand));
 }
 
 Result<std::shared_ptr<const FrameBundle>> ExportingSource::Next(std::stop_token stop) {
@@ -42,6 +43,7 @@ Result<std::shared_ptr<const FrameBundle>> ExportingSource::Next(std::stop_token
     depth_m = RenderDepth(scene, b.rig->left, simulator_->TruePoseAt(time) * b.rig->X_BC());
   }
   const ImuBiases biases = simulator_->imu_biases();
+  const std::lock_guard hand(hand_);
   writer_->SetBiases(biases.gyro_rad_s, biases.accel_mps2);
   if (const palace::Status written = writer_->Add(b, b.stereo ? &depth_m : nullptr); !written) {
     return written.error();

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "engine/capture/euroc/euroc_writer.h"
@@ -16,8 +17,10 @@ namespace palace {
 /// and the vehicle's navigation. A folder that cannot be written is the source's error.
 class ExportingSource final : public Source {
  public:
+  /// `hand` is held while a bundle is written, not while it is made; it outlives this.
   static Result<std::unique_ptr<ExportingSource>> Create(const SimulatedSession& session,
-                                                         const std::filesystem::path& folder);
+                                                         const std::filesystem::path& folder,
+                                                         std::mutex& hand);
 
   Result<std::shared_ptr<const FrameBundle>> Next(std::stop_token stop) override;
   bool IsLockstep() const override { return true; }
@@ -26,14 +29,21 @@ class ExportingSource final : public Source {
 
   /// After the last bundle. Tells the number of pairs.
   Result<std::uint64_t> Close();
+  /// In place of Close(): nothing of it stays.
+  void Remove() { writer_->Remove(); }
 
  private:
-  ExportingSource(const SimulatedSession& session, std::unique_ptr<EurocWriter> writer)
-      : simulator_(session.simulator), scene_(session.scene), writer_(std::move(writer)) {}
+  ExportingSource(const SimulatedSession& session, std::unique_ptr<EurocWriter> writer,
+                  std::mutex& hand)
+      : simulator_(session.simulator),
+        scene_(session.scene),
+        writer_(std::move(writer)),
+        hand_(hand) {}
 
   const std::shared_ptr<Simulator> simulator_;
   const World scene_;
   const std::unique_ptr<EurocWriter> writer_;
+  std::mutex& hand_;
 };
 
 /// Flies a whole mission without a window, a scripted operator in command (as headless palace

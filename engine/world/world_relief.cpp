@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <vector>
@@ -20,15 +21,66 @@ constexpr NumberLimits kWave{0.2, 64, "metres of wavelength"};
 constexpr NumberLimits kHurst{0.2, 1.5, "0.5 rugged .. 1 smooth"};
 constexpr NumberLimits kSquare{16, 128, "metres a side; it goes on mirrored"};
 
-/// Cuts and rises of the ground: metres up at a place.
-Status ReadForms(WorldTables& tables, std::vector<HeightFunction>& forms) {
+/// A cut or rise of the ground: metres up at a place, 0 farther than `reach_m` from the stretch
+/// between two places.
+struct Form {
+  Vector2d from, to;
+  double reach_m;
+  HeightFunction height;
+};
+
+double DistanceTo(const Vector2d& place, const Vector2d& from, const Vector2d& to) {
+  const Vector2d along = to - from, off = place - from;
+  const double s = std::clamp(off.dot(along) / std::max(along.squaredNorm(), 1e-9), 0.0, 1.0);
+  return (off - s * along).norm();
+}
+
+/// Forms by the blocks of a square that they reach into: a world may hold two thousand, and each
+/// would be asked at each of a million corners.
+class FormsOfSquare {
+ public:
+  FormsOfSquare(const HeightField::Place& square, const std::vector<Form>& forms)
+      : square_(square), block_m_(square.size_m / kBlocks) {
+    for (std::size_t i = 0; i < kBlocks * kBlocks; ++i) {
+      const Vector2d middle(square.north_m + (double(i / kBlocks) + 0.5) * block_m_,
+                            square.east_m + (double(i % kBlocks) + 0.5) * block_m_);
+      for (const Form& form : forms) {
+        // The whole side for the half diagonal: rounding of places takes none of it.
+        if (DistanceTo(middle, form.from, form.to) <= form.reach_m + block_m_) {
+          blocks_[i].push_back(&form.height);
+        }
+      }
+    }
+  }
+
+  /// Metres up at a place of the square, added to `height_m` in the order of the file.
+  double Height(double north_m, double east_m, double height_m) const {
+    for (const HeightFunction* form :
+         blocks_[Index(north_m - square_.north_m) * kBlocks + Index(east_m - square_.east_m)]) {
+      height_m += (*form)(north_m, east_m);
+    }
+    return height_m;
+  }
+
+ private:
+  static constexpr std::size_t kBlocks = 64;  ///< a side
+  std::size_t Index(double in_m) const {
+    return static_cast<std::size_t>(std::clamp(in_m / block_m_, 0.0, double(kBlocks - 1)));
+  }
+
+  const HeightField::Place square_;
+  const double block_m_;
+  std::vector<std::vector<const HeightFunction*>> blocks_{kBlocks * kBlocks};
+};
+
+Status ReadForms(WorldTables& tables, std::vector<Form>& forms) {
   Status read = tables.Each("hole", [&](TomlTable& table) {
     const Vector2d at = ReadPlace(table, "at");
     const double radius_m = table.Number("diameter_m", kSize) / 2;
     const double depth_m = table.Number("depth_m", kDepth);
-    forms.push_back([=](double n, double e) {
-      return std::hypot(n - at.x(), e - at.y()) <= radius_m ? -depth_m : 0.0;
-    });
+    forms.push_back({at, at, radius_m, [=](double n, double e) {
+                       return std::hypot(n - at.x(), e - at.y()) <= radius_m ? -depth_m : 0.0;
+                     }});
   });
   if (!read) {
     return read;
@@ -37,11 +89,9 @@ Status ReadForms(WorldTables& tables, std::vector<HeightFunction>& forms) {
     const Vector2d from = ReadPlace(table, "from"), to = ReadPlace(table, "to");
     const double half_m = table.Number("width_m", kSize) / 2;
     const double depth_m = table.Number("depth_m", kDepth);
-    forms.push_back([=](double n, double e) {
-      const Vector2d along = to - from, off = Vector2d(n, e) - from;
-      const double s = std::clamp(off.dot(along) / std::max(along.squaredNorm(), 1e-9), 0.0, 1.0);
-      return (off - s * along).norm() <= half_m ? -depth_m : 0.0;
-    });
+    forms.push_back({from, to, half_m, [=](double n, double e) {
+                       return DistanceTo({n, e}, from, to) <= half_m ? -depth_m : 0.0;
+                     }});
   });
   if (!read) {
     return read;
@@ -50,10 +100,11 @@ Status ReadForms(WorldTables& tables, std::vector<HeightFunction>& forms) {
     const Vector2d at = ReadPlace(table, "at");
     const double radius_m = table.Number("diameter_m", kSize) / 2;
     const double height_m = table.Number("height_m", kDepth);
-    forms.push_back([=](double n, double e) {
-      const double share = std::hypot(n - at.x(), e - at.y()) / radius_m;
-      return share < 1 ? height_m * 0.5 * (1 + std::cos(std::numbers::pi * share)) : 0.0;
-    });
+    forms.push_back({at, at, radius_m, [=](double n, double e) {
+                       const double share = std::hypot(n - at.x(), e - at.y()) / radius_m;
+                       return share < 1 ? height_m * 0.5 * (1 + std::cos(std::numbers::pi * share))
+                                        : 0.0;
+                     }});
   });
 }
 
@@ -61,7 +112,7 @@ Status ReadForms(WorldTables& tables, std::vector<HeightFunction>& forms) {
 HeightField::Place SquareAhead(double size_m) { return {-size_m / 4, -size_m / 2, size_m, 10}; }
 
 void ReadHeights(TomlTable& table, const std::filesystem::path& folder,
-                 const HeightField::Place& square, std::vector<HeightFunction>& forms) {
+                 const HeightField::Place& square, std::vector<Form>& forms) {
   const std::string file = table.Text("file");
   const Vector2d middle(square.north_m + square.size_m / 2, square.east_m + square.size_m / 2);
   const Vector2d at = table.Has("at") ? ReadPlace(table, "at") : middle;
@@ -70,13 +121,13 @@ void ReadHeights(TomlTable& table, const std::filesystem::path& folder,
     table.FailKey("file", ": " + heights.error().message);
     return;
   }
-  forms.push_back(std::move(*heights));
+  forms.push_back({middle, middle, std::numeric_limits<double>::infinity(), std::move(*heights)});
 }
 
 }  // namespace
 
 Status ReadRelief(WorldTables& tables, World& world) {
-  std::vector<HeightFunction> forms;
+  std::vector<Form> forms;
   if (const Status read = ReadForms(tables, forms); !read) {
     return read;
   }
@@ -108,14 +159,11 @@ Status ReadRelief(WorldTables& tables, World& world) {
     return finished;
   }
   if (rms_m > 0 || !forms.empty()) {
-    world.ground.relief =
-        std::make_shared<const HeightField>(SquareAhead(size_m), [&](double n, double e) {
-          double height_m = rms_m * FractalNoise(n, e, seed, longest_m, shortest_m, hurst);
-          for (const HeightFunction& form : forms) {
-            height_m += form(n, e);
-          }
-          return height_m;
-        });
+    const FormsOfSquare of_square(SquareAhead(size_m), forms);
+    world.ground.relief = std::make_shared<const HeightField>(SquareAhead(size_m), [&](double n,
+                                                                                       double e) {
+      return of_square.Height(n, e, rms_m * FractalNoise(n, e, seed, longest_m, shortest_m, hurst));
+    });
   }
   return Ok();
 }

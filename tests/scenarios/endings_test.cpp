@@ -120,6 +120,29 @@ TEST_F(Endings, TooLittleMemoryIsSaidInOneSentence) {
   }
 }
 
+/// Wires that throw shadows on each other take minutes to draw. Nothing was flown: nothing stays.
+TEST_F(Endings, AWorldThatTakesMinutesIsGivenUpInTwoSeconds) {
+  std::string world = "name = \"wires\"\n[ground]\nmaterial = \"grass\"\n";
+  for (int i = 0; i < 2000; ++i) {
+    world += "[[rod]]\nfrom = [" + std::to_string(i % 83 - 41) + ", -40, 2]\nto = [" +
+             std::to_string(i % 79 - 39) + ", 40, 3]\ndiameter_m = 0.1\n";
+  }
+  WriteFile("wires.toml", world);
+  for (const char* what : {"--log", "--export"}) {
+    Process vehicle(Palacectl({"simulate", "--scenario", "wires.toml", what, "out"}));
+    ASSERT_TRUE(Until(60, [&] { return std::filesystem::exists(folder_ / "out"); }))
+        << vehicle.Err();
+    vehicle.Signal(SIGTERM);
+    EXPECT_TRUE(Until(2.5, [&] { return !vehicle.Running(); })) << what;
+    const ProcessResult ended = vehicle.Wait(1);
+    EXPECT_EQ(ended.exit_code, 128 + SIGTERM) << ended.err;
+    EXPECT_NE(ended.err.find("nothing was written"), std::string::npos) << ended.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "mav0"));
+    EXPECT_FALSE(std::filesystem::is_regular_file(folder_ / "out"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out.idx"));
+  }
+}
+
 TEST_F(Endings, TheVehicleAndExperimentsEndInOrderToo) {
   Process vehicle(Palacectl({"simulate", "--log", "vehicle.lcm", "--realtime"}));
   ASSERT_TRUE(Until(30, [&] {
@@ -135,9 +158,21 @@ TEST_F(Endings, TheVehicleAndExperimentsEndInOrderToo) {
   experiment.Signal(SIGTERM);
   const ProcessResult ended = experiment.Wait(60);
   EXPECT_EQ(ended.exit_code, 128 + SIGTERM) << ended.err;
-  EXPECT_NE(ended.err.find("ends after the trial in hand"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("the trial in hand is given up"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("ended after trial"), std::string::npos) << ended.err;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "probability.csv"));
+
+  // Trials of this one take minutes.
+  Process ground(Palacectl({"evaluate", "ground", "--trials", "3", "--out", "ground"}));
+  ASSERT_TRUE(Until(60, [&] { return std::filesystem::exists(folder_ / "ground"); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ground.Signal(SIGTERM);
+  EXPECT_TRUE(Until(2, [&] { return !ground.Running(); }));
+  const ProcessResult none = ground.Wait(1);
+  EXPECT_EQ(none.exit_code, 128 + SIGTERM) << none.err;
+  EXPECT_NE(none.err.find("--resume goes on from here"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("before its first trial was done"), std::string::npos) << none.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "ground" / "ground.csv"));
 
   Process shard(Palacectl(
       {"evaluate", "probability", "--trials", "100000", "--shard", "1/2", "--out", "shard"}));

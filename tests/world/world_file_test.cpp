@@ -2,9 +2,15 @@
 #include "engine/world/world_file.h"
 
 #include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <numbers>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "engine/core/random.h"
 #include "engine/core/units.h"
 
 namespace palace {
@@ -127,6 +133,45 @@ TEST(WorldFile, TooManyThingsAreRefused) {
   ASSERT_FALSE(read.ok());
   EXPECT_NE(read.error().message.find("more than 2000 things"), std::string::npos)
       << read.error().message;
+}
+
+/// Against the plain sum of all of them; asking each at each corner took a minute.
+TEST(WorldFile, ManyFormsAddUpAndTakeNoMinute) {
+  RandomStream random(7, "forms");
+  struct Mound {
+    double north_m, east_m, radius_m, height_m;
+  };
+  std::vector<Mound> mounds;
+  std::string text = "[relief]\nrms_m = 0\nsize_m = 100\n";
+  while (mounds.size() < 1990) {
+    mounds.push_back({random.Uniform(-60, 80), random.Uniform(-60, 60), random.Uniform(0.1, 4),
+                      random.Uniform(0.05, 0.5)});
+    const Mound& m = mounds.back();
+    char table[200];
+    std::snprintf(table, sizeof table,
+                  "[[mound]]\nat = [%.17g, %.17g]\ndiameter_m = %.17g\nheight_m = %.17g\n",
+                  m.north_m, m.east_m, 2 * m.radius_m, m.height_m);
+    text += table;
+  }
+  text += "[[ditch]]\nfrom = [-70, -95]\nto = [120, 95]\nwidth_m = 3\ndepth_m = 1\n";
+  const std::clock_t before = std::clock();
+  const Result<World> world = ParseWorld(text, "forms.toml");
+  ASSERT_TRUE(world.ok()) << world.error().message;
+  EXPECT_LT(double(std::clock() - before) / CLOCKS_PER_SEC, 15);  // of processors, not of a clock
+  const HeightField& relief = *world->ground.relief;
+  const HeightField::Place& place = relief.place();
+  for (int i = 0; i <= relief.cells(); i += 13) {
+    for (int j = 0; j <= relief.cells(); j += 13) {
+      const double n = place.north_m + i * relief.cell_m(), e = place.east_m + j * relief.cell_m();
+      double height_m = 0;
+      for (const Mound& m : mounds) {
+        const double share = std::hypot(n - m.north_m, e - m.east_m) / m.radius_m;
+        height_m += share < 1 ? m.height_m * 0.5 * (1 + std::cos(std::numbers::pi * share)) : 0.0;
+      }
+      height_m -= std::abs((n + 20) - (e + 45)) / std::numbers::sqrt2 <= 1.5 ? 1 : 0;
+      ASSERT_NEAR(relief.Corner(i, j), height_m, 1e-5) << n << " north, " << e << " east";
+    }
+  }
 }
 
 TEST(WorldFile, AnEmptyFileIsLevelGround) {

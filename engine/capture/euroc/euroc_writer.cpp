@@ -253,6 +253,12 @@ Status EurocWriter::Add(const FrameBundle& bundle, const ImageF* depth_m) {
   return bundle.stereo ? AddPictures(*bundle.stereo, depth_m) : Ok();
 }
 
+void EurocWriter::Remove() {
+  std::error_code ignored;
+  fs::remove_all(mav0_, ignored);
+  fs::remove(mav0_.parent_path() / "README.txt", ignored);
+}
+
 Status EurocWriter::Close() {
   return Each(
       {left_.Close(), right_.Close(), inertial_.Close(), truth_.Close(), navigation_.Close()});

@@ -68,6 +68,8 @@ class EurocWriter {
   }
   /// After it the folder is whole.
   Status Close();
+  /// In place of Close(): takes away what was written.
+  void Remove();
 
   std::uint64_t pairs() const { return pairs_; }
 
