@@ -143,6 +143,29 @@ TEST_F(Endings, AWorldThatTakesMinutesIsGivenUpInTwoSeconds) {
   }
 }
 
+/// Its rows are there, whenever it was killed: each is of a picture that is whole.
+TEST_F(Endings, AKilledExportListsItsPairs) {
+  Process vehicle(Palacectl({"simulate", "--export", "out", "--duration-s", "600"}));
+  const std::filesystem::path camera = folder_ / "out" / "mav0" / "cam0";
+  ASSERT_TRUE(Until(60, [&] {
+    return std::filesystem::exists(camera / "data") &&
+           std::distance(std::filesystem::directory_iterator(camera / "data"), {}) > 4;
+  })) << vehicle.Err();
+  vehicle.Signal(SIGKILL);
+  vehicle.Wait(10);
+  for (const char* side : {"cam0", "cam1"}) {
+    std::ifstream table(camera.parent_path() / side / "data.csv");
+    std::string line;
+    int rows = -1;  // the heading is none
+    for (; std::getline(table, line); ++rows) {
+      const std::string name = line.substr(line.find(',') + 1);
+      EXPECT_TRUE(rows < 0 || std::filesystem::exists(camera.parent_path() / side / "data" / name))
+          << line;
+    }
+    EXPECT_GE(rows, 3) << side;
+  }
+}
+
 TEST_F(Endings, TheVehicleAndExperimentsEndInOrderToo) {
   Process vehicle(Palacectl({"simulate", "--log", "vehicle.lcm", "--realtime"}));
   ASSERT_TRUE(Until(30, [&] {

@@ -154,7 +154,7 @@ Status EurocTable::Open(const fs::path& path, const std::string& header) {
 }
 
 Status EurocTable::Add(Timestamp time, const std::string& values) {
-  file_ << StampText(time) << values << '\n';
+  file_ << StampText(time) << values << '\n' << std::flush;  // a killed export has its rows
   return file_ ? Ok() : CannotWrite(path_);
 }
 
