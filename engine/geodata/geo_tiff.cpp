@@ -23,9 +23,6 @@ namespace {
 constexpr ttag_t kNoDataTag = 42113;  // GDAL's
 constexpr int kMostCells = 8192;
 constexpr double kLeastCell_m = 0.001, kMostCell_m = 1000;
-/// Of a corner from its system's origin. Gauss-Kruger systems put the zone's number, up to 120, in
-/// front of an easting of six digits; farther lies nothing, and cells would fall together.
-constexpr double kFarthest_m = 1.3e8;
 
 struct CloseTiff {
   void operator()(TIFF* file) const { XTIFFClose(file); }
@@ -241,7 +238,7 @@ Status ReadPlace(const std::filesystem::path& path, TIFF* file, MapLayer& layer)
   if (!std::isfinite(place->east) || !std::isfinite(place->north)) {
     return Broken(path, "its corner is not a finite place; write its tags anew with gdal_edit.py");
   }
-  if (!(std::abs(place->east) <= kFarthest_m && std::abs(place->north) <= kFarthest_m)) {
+  if (!(std::abs(place->east) <= kFarthestPlace_m && std::abs(place->north) <= kFarthestPlace_m)) {
     return Broken(path, WithNumbers("its corner lies at east %g m, north %g m; places lie within "
                                     "130 000 km of their origin, write its tags anew with "
                                     "gdal_edit.py -a_ullr",

@@ -10,6 +10,11 @@
 
 namespace palace {
 
+/// Of a place from its system's origin, metres east or north. Gauss-Kruger systems put the zone's
+/// number, up to 120, in front of an easting of six digits; farther lies nothing, and cells would
+/// fall together.
+inline constexpr double kFarthestPlace_m = 1.3e8;
+
 /// One layer with its place. Rows north to south, as grids are.
 struct MapLayer {
   GridGeometry geometry;

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "engine/core/text.h"
+#include "engine/geodata/geo_tiff.h"
 #include "engine/slad/terrain/elevation_map_builder.h"
 #include "engine/slad/terrain/hole_filling.h"
 #include "engine/survey/cloud_doubts.h"
@@ -18,7 +19,6 @@ constexpr double kSurfaceDepth_m = 0.3;
 /// Where points are scattered at random, three a cell leave one cell in twenty empty.
 constexpr double kPointsACell = 3;
 constexpr double kLowestLand_m = -450, kHighestLand_m = 9000;
-constexpr double kRoundEarth_m = 4.1e7;  // farther from an origin lies no land
 /// What may be empty by chance where a lander would stand: then more than a third of all places are
 /// without. Cells grow by steps until it is so, or have twice the side.
 constexpr double kGapsALander = 1;
@@ -166,7 +166,7 @@ Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
   points.reserve(survey.size());
   Eigen::Vector2d low = Eigen::Vector2d::Constant(HUGE_VAL), high = -low;
   for (const Eigen::Vector3d& p : survey) {
-    if (p.allFinite() && IsOnEarth(p.z()) && p.head<2>().cwiseAbs().maxCoeff() < kRoundEarth_m) {
+    if (p.allFinite() && IsOnEarth(p.z()) && p.head<2>().cwiseAbs().maxCoeff() < kFarthestPlace_m) {
       points.emplace_back(p.y(), p.x(), p.z());
       low = low.cwiseMin(points.back().head<2>());
       high = high.cwiseMax(points.back().head<2>());
@@ -178,7 +178,7 @@ Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
   if (points.size() < survey.size()) {
     warnings.push_back(WithNumbers(
         "%.0f of %.0f points are not finite, below -450 m or above 9000 m, or more than "
-        "41 000 km from the origin: left out",
+        "130 000 km from the origin: left out",
         double(survey.size() - points.size()), double(survey.size())));
   }
   slad.grid.cell_m = cell_m.value_or(slad.grid.cell_m);

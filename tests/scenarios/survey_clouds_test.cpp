@@ -109,7 +109,7 @@ std::vector<SurveyRow> Clouds() {
        true,
        "0 0 0\n1e300 1 0\n-1e300 3 0\n",
        End::kNoSite,
-       {"2 of 3 points", "41 000 km", "the points span 0 m"},
+       {"2 of 3 points", "130 000 km", "the points span 0 m"},
        {"--cell-m", "1"}},
       {"ply_ascii",
        true,

@@ -65,6 +65,21 @@ TEST(CloudElevation, PointsOffThisEarthAreLeftOutWithAWarning) {
   EXPECT_NEAR(map.height_m.at(5, 5), 100, 1e-4);
 }
 
+/// Gauss-Kruger eastings have the number of their zone in front: Pulkovo's 32, at most 120.
+TEST(CloudElevation, ZonesInFrontOfEastingsAreNoFarPlaces) {
+  for (const double zone : {32, 60, 120}) {
+    Points points = Meadow(0);
+    for (Eigen::Vector3d& p : points) {
+      p.x() += zone * 1e6;
+    }
+    std::vector<std::string> warnings;
+    const ElevationMap map = MapOf(points, warnings);
+    EXPECT_TRUE(warnings.empty()) << warnings[0];
+    EXPECT_NEAR(map.geometry.east_min_m, zone * 1e6 + 500000, 1);
+    EXPECT_NEAR(map.height_m.at(5, 5), 100, 1e-4);
+  }
+}
+
 TEST(CloudElevation, ANearlyExactCloudStillHasAMillimetreOfDoubt) {
   std::vector<std::string> warnings;
   const ElevationMap map = MapOf(Meadow(0), warnings, 1.0);
