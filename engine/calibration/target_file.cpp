@@ -13,6 +13,7 @@
 #include <toml++/toml.h>
 
 #include "engine/core/files.h"
+#include "engine/core/plain_text.h"
 #include "engine/core/text.h"
 #include "engine/core/toml_text.h"
 
@@ -246,7 +247,7 @@ Result<CalibrationTarget> ParseTargetText(std::string_view text, const std::stri
   for (const auto& [key, node] : root) {
     if (key.str() != "target") {
       return InvalidError(name + ":" + std::to_string(node.source().begin.line) + ": unknown key " +
-                          std::string(key.str()) + "; the only table is [target]");
+                          Printable(key.str()) + "; the only table is [target]");
     }
   }
   const toml::node* node = root.get("target");

@@ -11,6 +11,7 @@
 #include "engine/capture/picture_file.h"
 #include "engine/capture/picture_order.h"
 #include "engine/capture/playback_turns.h"
+#include "engine/core/plain_text.h"
 #include "engine/core/text.h"
 
 namespace palace {
@@ -39,8 +40,8 @@ Error Unposed(const PosesFile& file, const std::map<std::string, ImagePair>& by_
       first = missing++ == 0 ? stem : first;
     }
   }
-  return InvalidError(file.name + ":" + std::to_string(file.last_line) +
-                      ": no row with file = " + first + "; " + std::to_string(missing) + " of " +
+  return InvalidError(file.name + ":" + std::to_string(file.last_line) + ": no row with file = " +
+                      Printable(first) + "; " + std::to_string(missing) + " of " +
                       std::to_string(by_stem.size()) + " left pictures have none, the file has " +
                       std::to_string(file.poses.size()) + " rows; give each left picture a row");
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "engine/core/plain_text.h"
 #include "engine/core/text.h"
 
 namespace palace {
@@ -101,7 +102,7 @@ std::vector<double> TomlTable::Numbers(const char* key, std::size_t least, std::
 
 void TomlTable::Fail(int line, const std::string& text) {
   if (!error_) {
-    error_ = InvalidError(file_ + ":" + std::to_string(line) + ": " + text);
+    error_ = InvalidError(file_ + ":" + std::to_string(line) + ": " + Printable(text));
   }
 }
 void TomlTable::FailKey(const char* key, const std::string& text) {

@@ -1,5 +1,7 @@
 #include "engine/core/toml_text.h"
 
+#include "engine/core/plain_text.h"
+
 #include <algorithm>
 #include <cstdint>
 #include <utility>
@@ -49,7 +51,7 @@ Result<toml::table> Parse(std::string_view text, const std::string& name) {
   toml::parse_result parsed = toml::parse(text);
   if (!parsed) {
     return InvalidError(name + ":" + std::to_string(parsed.error().source().begin.line) + ": " +
-                        std::string(parsed.error().description()));
+                        Printable(parsed.error().description()));
   }
   return std::move(parsed).table();
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core/files.h"
+#include "engine/core/plain_text.h"
 #include "engine/core/text.h"
 #include "engine/core/toml_table.h"
 #include "engine/faults/fault_text.h"
@@ -77,7 +78,7 @@ Result<FaultPlan> ParseFaultPlan(std::string_view text, const std::string& name)
   for (const auto& [key, node] : *root) {
     if (key.str() != "fault" || !node.is_array_of_tables()) {
       return InvalidError(name + ":" + std::to_string(node.source().begin.line) + ": " +
-                          std::string(key.str()) +
+                          Printable(key.str()) +
                           " is unknown; a plan of faults has [[fault]] tables alone");
     }
   }

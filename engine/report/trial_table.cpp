@@ -9,6 +9,7 @@
 #include <set>
 
 #include "engine/core/check.h"
+#include "engine/core/plain_text.h"
 
 namespace palace {
 namespace {
@@ -76,7 +77,7 @@ std::optional<TrialHeader> ParseHeader(std::string_view line) {
 }
 
 Error At(const std::string& name, int line, const std::string& text) {
-  return InvalidError(name + ":" + std::to_string(line) + ": " + text);
+  return InvalidError(name + ":" + std::to_string(line) + ": " + Printable(text));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <toml++/toml.h>
 
 #include "engine/core/files.h"
+#include "engine/core/plain_text.h"
 #include "engine/core/text.h"
 #include "engine/core/toml_text.h"
 #include "engine/core/units.h"
@@ -62,7 +63,7 @@ std::string Written(const toml::node& node) {
   node.visit([&out](const auto& value) { out << value; });
   std::string text = out.str();
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.size() > kMost ? text.substr(0, kMost) + "..." : text;
+  return Printable(text.size() > kMost ? text.substr(0, kMost) + "..." : text);
 }
 
 Result<double> NumberOf(const SettingInfo& info, const toml::node& node) {
@@ -70,7 +71,7 @@ Result<double> NumberOf(const SettingInfo& info, const toml::node& node) {
     if (const auto value = ValueOfWord(info, *word)) {
       return *value;
     }
-    return InvalidError(info.name + " = \"" + *word + "\" is not " +
+    return InvalidError(info.name + " = \"" + Printable(*word) + "\" is not " +
                         (info.words.empty() ? "a number" : "one of: " + Joined(info.words)));
   }
   if (!info.words.empty()) {
@@ -114,7 +115,7 @@ Status ApplyKey(Settings& settings, const std::string& key, const toml::node& no
   }
   const SettingInfo* info = FindSetting(key);
   if (info == nullptr) {
-    return InvalidError("unknown key '" + key + "'");
+    return InvalidError("unknown key '" + Printable(key) + "'");
   }
   const Result<double> value = NumberOf(*info, node);
   return value ? SetSettingValue(settings, key, *value) : Status(value.error());
@@ -145,7 +146,7 @@ Result<Settings> ParseSettings(std::string_view text, const std::string& name,
   for (const auto& [section, content] : root) {
     const toml::table* table = content.as_table();
     if (table == nullptr) {
-      return InvalidError(At(name, content) + "'" + std::string(section.str()) +
+      return InvalidError(At(name, content) + "'" + Printable(section.str()) +
                           "' stands outside a section; sections are [slad] [stereo] [tracking] "
                           "[mission]");
     }

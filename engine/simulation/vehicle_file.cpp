@@ -8,6 +8,7 @@
 
 #include "engine/core/files.h"
 #include "engine/core/check.h"
+#include "engine/core/plain_text.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/simulation/sensor_tables.h"
@@ -160,7 +161,7 @@ Status CheckTables(const toml::table& root, const std::string& file, bool multir
   for (const auto& [key, node] : root) {
     if (!known.contains(key.str())) {
       return InvalidError(file + ":" + std::to_string(node.source().begin.line) +
-                          ": unknown table [" + std::string(key.str()) +
+                          ": unknown table [" + Printable(key.str()) +
                           "]; known here: " + Joined({known.begin(), known.end()}));
     }
   }

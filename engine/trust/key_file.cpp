@@ -16,6 +16,7 @@
 #include <sodium.h>
 
 #include "engine/core/files.h"
+#include "engine/core/plain_text.h"
 
 namespace palace {
 namespace {
@@ -150,7 +151,7 @@ Result<SecretKey> ParseKey(std::string_view text, const std::string& origin) {
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     ++number;
     const auto wrong = [&](const std::string& why) {
-      return InvalidError(origin + ":" + std::to_string(number) + ": " + why);
+      return InvalidError(origin + ":" + std::to_string(number) + ": " + Printable(why));
     };
     if (number == 1) {
       if (line != kFirstLine) {

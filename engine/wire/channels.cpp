@@ -9,6 +9,7 @@
 #include <toml++/toml.h>
 
 #include "engine/core/files.h"
+#include "engine/core/plain_text.h"
 #include "engine/core/toml_text.h"
 
 namespace palace {
@@ -84,7 +85,7 @@ Result<ChannelNames> FromTable(const toml::table& root, const std::string& origi
                           "'; the file has one table, [channels]");
     }
     for (const auto& [key, value] : *node.as_table()) {
-      const std::string label = "channels." + std::string(key.str());
+      const std::string label = "channels." + Printable(key.str());
       const Row* row = FindRow(key.str());
       if (row == nullptr) {
         return InvalidError(at(value) + "unknown key '" + label +
@@ -96,7 +97,7 @@ Result<ChannelNames> FromTable(const toml::table& root, const std::string& origi
       names.*(row->name) = value.as_string()->get();
       const std::string problem = CheckName(names.*(row->name));
       if (!problem.empty()) {
-        return InvalidError(at(value) + label + " " + problem);
+        return InvalidError(at(value) + label + " " + Printable(problem));
       }
     }
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/files.h"
+#include "engine/core/plain_text.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/world/scene_library.h"
@@ -156,7 +157,7 @@ Result<World> ReadWorld(WorldTables& tables) {
   for (const auto& [key, node] : tables.root()) {
     if (!known.count(std::string(key.str()))) {
       return InvalidError(name + ":" + std::to_string(node.source().begin.line) + ": unknown \"" +
-                          std::string(key.str()) + "\"; a world file knows " +
+                          Printable(key.str()) + "\"; a world file knows " +
                           Joined({known.begin(), known.end()}));
     }
   }

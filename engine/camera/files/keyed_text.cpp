@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/plain_text.h"
+
 namespace palace {
 namespace {
 
@@ -81,12 +83,12 @@ std::string KeyedText::Word(std::string_view key) const {
 Error KeyedText::Wrong(std::string_view key, const std::string& what) const {
   const KeyedValue* value = Find(key);
   const std::string place = value == nullptr ? file_ : file_ + ":" + std::to_string(value->line);
-  return InvalidError(place + ": " + std::string(key) + " = " +
+  return InvalidError(place + ": " + Printable(key) + " = " +
                       (value == nullptr ? "" : Shown(value->text)) + ": " + what);
 }
 
 Error KeyedText::Missing(std::string_view key, const std::string& remedy) const {
-  return InvalidError(file_ + ": " + std::string(key) + " is missing; " + remedy);
+  return InvalidError(file_ + ": " + Printable(key) + " is missing; " + remedy);
 }
 
 void KeyedText::LeaveOpen(int line, const std::string& end) {

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/plain_text.h"
+
 namespace palace {
 namespace {
 
@@ -77,7 +79,7 @@ Status ForEachRow(std::istream& in, const std::string& name, std::size_t count, 
     }
     begun = true;
     if (!numbers || numbers->size() != count) {
-      return InvalidError(at + "'" + line.substr(0, 60) + "' is not " + form +
+      return InvalidError(at + "'" + Printable(line.substr(0, 60)) + "' is not " + form +
                           "; each line holds " + std::to_string(count) + " finite numbers");
     }
     use(*numbers);

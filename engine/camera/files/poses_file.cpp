@@ -10,6 +10,7 @@
 
 #include "engine/camera/files/keyed_text.h"
 #include "engine/core/files.h"
+#include "engine/core/plain_text.h"
 #include "engine/core/text.h"
 #include "engine/core/toml_table.h"
 #include "engine/core/units.h"
@@ -78,7 +79,7 @@ class Reader {
 
  private:
   Error Wrong(const std::string& what) const {
-    return InvalidError(file_.name + ":" + std::to_string(line_) + ": " + what);
+    return InvalidError(file_.name + ":" + std::to_string(line_) + ": " + Printable(what));
   }
 
   Status ReadHeader(const std::vector<std::string>& words) {

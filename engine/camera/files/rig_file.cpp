@@ -7,6 +7,7 @@
 #include "engine/camera/camera_pair.h"
 #include "engine/camera/files/camera_files.h"
 #include "engine/core/files.h"
+#include "engine/core/plain_text.h"
 #include "engine/core/text.h"
 #include "engine/core/toml_table.h"
 #include "engine/core/toml_text.h"
@@ -295,7 +296,7 @@ Status CheckTables(const toml::table& root, const std::string& name) {
   for (const auto& [key, node] : root) {
     if (!known.contains(key.str())) {
       return InvalidError(name + ":" + std::to_string(node.source().begin.line) + ": unknown key " +
-                          std::string(key.str()) + "; known tables: " + kTables);
+                          Printable(key.str()) + "; known tables: " + kTables);
     }
   }
   return Ok();

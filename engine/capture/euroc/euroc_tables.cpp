@@ -9,6 +9,7 @@
 #include "engine/camera/files/keyed_text.h"
 #include "engine/capture/euroc/euroc_frames.h"
 #include "engine/core/files.h"
+#include "engine/core/plain_text.h"
 #include "engine/core/text.h"
 
 namespace palace {
@@ -36,7 +37,7 @@ class Row {
   std::size_t values() const { return words_.size() - 1; }
   std::string_view Word(std::size_t value) const { return words_[value + 1]; }
   Error Wrong(const std::string& what) const {
-    return InvalidError(file_ + ":" + std::to_string(line_) + ": " + what);
+    return InvalidError(file_ + ":" + std::to_string(line_) + ": " + Printable(what));
   }
   Error WrongCount(const char* columns) const {
     return Wrong(std::to_string(words_.size()) + " columns; a row has " + columns);
