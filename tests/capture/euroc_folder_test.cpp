@@ -1,6 +1,8 @@
 // Folders in EuRoC's layout: frames, pairs, poses, what is left out and what is refused.
 #include "engine/capture/euroc/euroc_folder.h"
 
+#include <sys/stat.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -316,6 +318,14 @@ TEST_F(BadEuroc, TablesAreRefusedByFileLineColumnAndLimit) {
 TEST_F(BadEuroc, FoldersThatAreNoneAreSaidToBe) {
   EXPECT_NE(LoadEurocFolder("/nowhere").error().message.find("/nowhere: no such folder"),
             std::string::npos);
+  const std::filesystem::path pipe = sample_.folder() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::filesystem::path& none :
+       {pipe, std::filesystem::path("/dev/zero"), sample_.folder() / "mav0/cam0/sensor.yaml"}) {
+    EXPECT_EQ(
+        LoadEurocFolder(none).error().message,
+        none.string() + ": is no folder; give one that holds mav0/cam0, as EuRoC data have it");
+  }
   const auto source = ImageFolderSource::Open(sample_.folder().parent_path() / "..", false);
   ASSERT_FALSE(source.ok());
   EXPECT_NE(source.error().message.find("or the RIG.toml of the pictures"), std::string::npos);

@@ -26,6 +26,11 @@ bool Exists(const fs::path& path) {
   return fs::exists(path, code);
 }
 
+bool IsFolder(const fs::path& path) {
+  std::error_code code;
+  return fs::is_directory(path, code);
+}
+
 Timestamp DataTime(std::int64_t time_ns, std::int64_t first_ns) {
   const std::int64_t since_ns = time_ns - first_ns;  // both are 0 or more
   const std::int64_t half = since_ns < 0 ? -500 : 500;
@@ -159,12 +164,13 @@ double MeanRate(const std::vector<ImagePair>& pairs, double otherwise) {
 Result<EurocFolder> LoadEurocFolder(const fs::path& folder) {
   EurocFolder found;
   found.folder = Exists(folder / "mav0") ? folder / "mav0" : folder;
-  if (!Exists(found.folder / "cam0")) {
-    return UnavailableError(folder.string() +
-                            (Exists(folder) ? ": is a folder without mav0/cam0, as EuRoC data have "
-                                              "it; give such a folder, or the RIG.toml of the "
-                                              "pictures"
-                                            : ": no such folder; check the name"));
+  if (!IsFolder(found.folder / "cam0")) {
+    return UnavailableError(
+        folder.string() +
+        (IsFolder(folder) ? ": is a folder without mav0/cam0, as EuRoC data have it; give such a "
+                            "folder, or the RIG.toml of the pictures"
+         : Exists(folder) ? ": is no folder; give one that holds mav0/cam0, as EuRoC data have it"
+                          : ": no such folder; check the name"));
   }
   const auto X_IC = ReadRig(found.folder, found.rig.rig);
   if (!X_IC) {
