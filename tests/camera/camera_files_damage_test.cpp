@@ -104,6 +104,44 @@ TEST(CameraFiles, ErrorsNameFileLineKeyAndLimit) {
   EXPECT_NE(size.error().message.find("640 x 480"), std::string::npos);
 }
 
+TEST(CameraFiles, InternalsThatNoCameraHasAreRefusedInEveryFormat) {
+  const WrongRow rows[] = {
+      {"JPL focal", kCahvorText, "H = 225.6 770 228", "H = 225.6 7e8 228",
+       "f.cam:6: H = 225.6 7e8 228: gives a focal length of 7e+08 px, it must lie within 1 .. "
+       "1000000 px"},
+      {"JPL centre", kCahvorText, "V = -372 9 718", "V = -372 9 7180",
+       "f.cam:7: V = -372 9 7180: puts the principal point at 5520.8 px, farther than the limit of "
+       "4800 px, 10 times the picture's side"},
+      {"CAHVORE focal", kCahvoreText, "V = 44.0102 16.904 683.916", "V = 0.5 0 -0.5",
+       "f.cam:6: V = 0.5 0 -0.5: gives a focal length of 0.7"},
+      {"label", kPdsText, "(353.341,474.873,350.82)", "(353.341,4.7e9,350.82)",
+       "MODEL_COMPONENT_3 = (353.341,4.7e9,350.82): gives a focal length of 4.69673e+09"},
+      {"Willson focal", kWillsonText, "69.974574039", "6.9e6", "f.cam:10: 10 = 6.9e6: gives"},
+      {"Willson centre", kWillsonText, "212.45332863", "2e9",
+       "f.cam:8: 8 = 2e9: puts the principal point at 2e+09 px, farther than the limit of 1000000"},
+      {"YAML focal", kOpenCvYamlText, "[ 5.3591573396163199e+02", "[ 1e-3",
+       "gives a focal length of 0.001 px"},
+      {"YAML centre", kOpenCvYamlText, "2.3557082909788173e+02", "-4801.",
+       "puts the principal point at -4801 px, farther than the limit of 4800 px"},
+      {"XML", kOpenCvXmlText, "534. 0. 335.", "5e7 0. 335.", "gives a focal length of 5e+07 px"},
+      {"ROS", kRosText, "320.5, 0.0, 501.0", "6401, 0.0, 501.0",
+       "camera_matrix.data = [500.0, 0.0, 6401, 0.0, 501.0, 240.5, 0.0, 0.0, 1.0]: puts"},
+      {"mrcal", kMrcalText, "(700, 710, 320", "(700, 1e7, 320", "gives a focal length of 1e+07"},
+      {"EuRoC", kEurocText, "367.215", "-7521", "intrinsics = [458.654, 457.296, -7521, 248.375]"},
+      {"Kalibr", kKalibrText, "[461.6, 460.3", "[461.6, 0.5", "cam0.intrinsics = [461.6, 0.5"},
+  };
+  for (const WrongRow& row : rows) {
+    SCOPED_TRACE(row.what);
+    const bool pair = &row.text == &kOpenCvXmlText || &row.text == &kKalibrText;
+    const auto side = pair ? std::optional(StereoSide::kLeft) : std::nullopt;
+    const auto model =
+        ParseCameraText(Replaced(row.text, row.replace, row.with), "f.cam", {side, {}});
+    ASSERT_FALSE(model.ok());
+    EXPECT_EQ(model.error().code, ErrorCode::kInvalid);
+    EXPECT_NE(model.error().message.find(row.message), std::string::npos) << model.error().message;
+  }
+}
+
 TEST(CameraFiles, AnyBytesGiveAUsableModelOrAnError) {
   constexpr std::uint64_t kSeed = 21;
   SCOPED_TRACE(kSeed);

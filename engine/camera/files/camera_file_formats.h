@@ -28,6 +28,15 @@ Result<PictureSize> ReadSize(const KeyedText& text, const std::string& width_key
                              const std::string& height_key);
 /// Width and height from one list of two whole numbers.
 Result<PictureSize> ReadSides(const KeyedText& text, const std::string& key);
+/// Where a file tells the internals of its camera.
+struct InternalsKeys {
+  std::string focal_across, focal_down, centre_across, centre_down;
+  static InternalsKeys In(const std::string& key) { return {key, key, key, key}; }
+};
+/// The camera, its size known, unless a focal length lies outside 1 .. 1e6 px or the principal
+/// point farther than ten pictures away (1e6 px where their size is unknown).
+Result<CameraModel> WithInternals(const KeyedText& text, const InternalsKeys& keys,
+                                  CameraModel model);
 /// Makes of the numbers of `key`, which may hold few digits, the rotation they stand for. Refuses
 /// what is none.
 Status TakeRotation(const KeyedText& text, const std::string& key, Eigen::Matrix3d& R);

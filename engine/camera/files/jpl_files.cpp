@@ -101,12 +101,14 @@ Result<double> LinearityOf(const KeyedText& text, double type, const std::string
   return text.Number(parameter_key);
 }
 
-Result<CameraModel> WithSize(Result<CameraModel> model, const Result<PictureSize>& size) {
+Result<CameraModel> WithSize(const KeyedText& text, const Keys& keys, Result<CameraModel> model,
+                             const Result<PictureSize>& size) {
   if (model && !size) {
     return size.error();
   }
   if (model) {
     SetSize(*model, size->width, size->height);
+    return WithInternals(text, {keys.H, keys.V, keys.H, keys.V}, *model);
   }
   return model;
 }
@@ -156,12 +158,12 @@ Result<CameraModel> ReadJplText(const KeyedText& text) {
   const auto size =
       text.Has("Dimensions") ? ReadSides(text, "Dimensions") : Result<PictureSize>(PictureSize{});
   if (!text.Has("Model")) {
-    return WithSize(ReadUnnamed(text), size);
+    return WithSize(text, Keys{}, ReadUnnamed(text), size);
   }
   const std::string value = text.Word("Model");
   const std::string_view name = Trimmed(std::string_view(value).substr(0, value.find('=')));
   if (name.substr(0, 7) == "CAHVORE") {
-    return WithSize(ReadCahvoreLine(text, name), size);
+    return WithSize(text, Keys{}, ReadCahvoreLine(text, name), size);
   }
   const std::string_view word = name.substr(0, name.find_first_of(" \t,"));
   if (word != "CAHV" && word != "CAHVOR") {
@@ -169,7 +171,8 @@ Result<CameraModel> ReadJplText(const KeyedText& text) {
   }
   CahvorModel model;
   const Status status = ReadBase(text, Keys{}, word == "CAHVOR", model);
-  return status ? WithSize(CameraModel{model}, size) : Result<CameraModel>(status.error());
+  return status ? WithSize(text, Keys{}, CameraModel{model}, size)
+                : Result<CameraModel>(status.error());
 }
 
 std::string JplToText(const CahvorModel& base, const CahvoreModel* cahvore) {
@@ -247,15 +250,17 @@ Result<CameraModel> ReadPdsLabel(const KeyedText& text) {
       return number.error();
     }
     const auto linearity = LinearityOf(text, *number, keys.type, keys.parameter);
-    return linearity ? WithSize(ReadCahvore(text, keys, *linearity, keys.parameter), size)
-                     : Result<CameraModel>(linearity.error());
+    return linearity
+               ? WithSize(text, keys, ReadCahvore(text, keys, *linearity, keys.parameter), size)
+               : Result<CameraModel>(linearity.error());
   }
   if (type != "CAHV" && type != "CAHVOR") {
     return text.Wrong(type_key, "PALACE reads CAHV, CAHVOR and CAHVORE");
   }
   CahvorModel model;
   const Status status = ReadBase(text, keys, type == "CAHVOR", model);
-  return status ? WithSize(CameraModel{model}, size) : Result<CameraModel>(status.error());
+  return status ? WithSize(text, keys, CameraModel{model}, size)
+                : Result<CameraModel>(status.error());
 }
 
 }  // namespace palace

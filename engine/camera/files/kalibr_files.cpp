@@ -177,7 +177,7 @@ Result<CameraModel> ReadCamera(const KeyedText& text, const CameraKeys& keys) {
   }
   CameraModel camera{model, 1, false};
   SetSize(camera, size->width, size->height);
-  return camera;
+  return WithInternals(text, InternalsKeys::In(keys("intrinsics")), camera);
 }
 
 void Place(CameraModel& camera, const RigidTransform& X_CF) {

@@ -119,7 +119,7 @@ Result<CameraModel> ReadMrcal(const KeyedText& text) {
   const Eigen::Matrix3d R_CF = RotationFromVector(Eigen::Map<const Eigen::Vector3d>(rt->data()));
   CameraModel model = MovedCamera(*lens, R_CF.transpose(), -(R_CF.transpose() * t_CF));
   SetSize(model, size->width, size->height);
-  return model;
+  return WithInternals(text, InternalsKeys::In("intrinsics"), model);
 }
 
 }  // namespace palace

@@ -236,7 +236,7 @@ Result<CameraModel> ReadOpenCv(const KeyedText& text, const CameraFileOptions& o
   }
   CameraModel camera{model, 1, pose_is_known};
   SetSize(camera, size->width, size->height);
-  return camera;
+  return WithInternals(text, InternalsKeys::In(matrix), camera);
 }
 
 Result<CameraModel> ReadRos(const KeyedText& text) {
@@ -297,7 +297,7 @@ Result<CameraModel> ReadRos(const KeyedText& text) {
   const bool is_moved = !R_RectC.isIdentity(0) || !t_RectF.isZero(0);
   CameraModel camera{model, 1, is_moved};
   SetSize(camera, size->width, size->height);
-  return camera;
+  return WithInternals(text, InternalsKeys::In(K), camera);
 }
 
 }  // namespace palace

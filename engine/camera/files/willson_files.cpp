@@ -85,7 +85,7 @@ Result<CameraModel> ReadWillson(const KeyedText& text) {
     }
     SetSize(camera, size->width, size->height);
   }
-  return camera;
+  return WithInternals(text, {"10", "10", "7", "8"}, camera);
 }
 
 std::string WillsonToText(const CameraModel& model) {
