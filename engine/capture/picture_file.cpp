@@ -13,6 +13,7 @@
 
 #include "engine/camera/grey_view.h"
 #include "engine/camera/picture_writer.h"
+#include "engine/capture/jpeg_damage.h"
 #include "engine/core/files.h"
 
 namespace palace {
@@ -93,6 +94,12 @@ Result<ImageU8> ReadGreyPicture(const std::filesystem::path& path) {
   if (CutShort(bytes)) {
     return InvalidError(path.string() + ": the picture is cut short after " +
                         std::to_string(bytes.size()) + " bytes; copy or record it again");
+  }
+  if (bytes.starts_with(kJpegStart)) {
+    if (const std::string damage = DamageInJpeg(bytes); !damage.empty()) {
+      return InvalidError(path.string() + ": the picture is damaged inside (" + damage +
+                          "); copy or record it again");
+    }
   }
   cv::Mat picture;
   try {

@@ -104,6 +104,41 @@ void Write(const fs::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
+/// A ramp: noise has a code for nearly all bits, so that none of them is wrong.
+ImageU8 Ramp() {
+  ImageU8 image(160, 120);
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      image.at(x, y) = static_cast<std::uint8_t>(x + y / 2 + (x / 9 + y / 7) % 3);
+    }
+  }
+  return image;
+}
+
+TEST_F(PictureFile, AJpegDamagedInsideIsRefusedWithWhatIsWrong) {
+  const std::string whole = JpegWith(Ramp(), "Exif");
+  Write(folder_ / "whole.jpg", whole);
+  EXPECT_TRUE(ReadGreyPicture(folder_ / "whole.jpg"));
+  int told = 0;
+  for (int share = 20; share < 90; share += 5) {
+    std::string damaged = whole;
+    const std::size_t at = damaged.size() * static_cast<std::size_t>(share) / 100;
+    damaged.replace(at, 16, std::string(16, '\x7F'));
+    Write(folder_ / "damaged.jpg", damaged);
+    const auto read = ReadGreyPicture(folder_ / "damaged.jpg");
+    if (!read) {
+      ++told;
+      EXPECT_THAT(read.error().message, HasSubstr("damaged.jpg: the picture is damaged inside ("));
+    }
+  }
+  EXPECT_GE(told, 10) << "of 14; what reads as other codes cannot be told";
+  // A camera may fill up before the end with bytes that say nothing.
+  std::string filled = whole;
+  filled.insert(filled.size() - 2, std::string(20, '\0'));
+  Write(folder_ / "filled.jpg", filled);
+  EXPECT_TRUE(ReadGreyPicture(folder_ / "filled.jpg"));
+}
+
 TEST_F(PictureFile, CutShortIsRefusedThoughASmallPictureInItIsWhole) {
   const std::string jpeg =
       JpegWith(Noise(1), std::string("Exif\0\0\xFF\xD8\xFF\xDB\0\0\xFF\xD9", 14));
