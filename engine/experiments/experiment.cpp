@@ -4,14 +4,11 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <latch>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -19,10 +16,10 @@
 #include "engine/core/check.h"
 #include "engine/core/command_line.h"
 #include "engine/core/files.h"
-#include "engine/core/hash.h"
 #include "engine/core/termination.h"
 #include "engine/core/text.h"
 #include "engine/experiments/finished_results.h"
+#include "engine/experiments/run_inputs.h"
 #include "engine/experiments/trial_record.h"
 
 namespace palace {
@@ -66,40 +63,6 @@ Result<fs::path> CsvOf(const fs::path& path, const std::vector<Experiment>& expe
     return UnavailableError(path.string() + " holds no table of an experiment");
   }
   return path / found.front();
-}
-
-/// What an option names: a file, or those of a folder of data. (Other folders are written to.)
-std::set<fs::path> FilesNamed(const CLI::Option& option, const std::string& value) {
-  std::error_code error;
-  std::set<fs::path> files;
-  if (fs::is_regular_file(value, error)) {
-    files.insert(value);
-  } else if (option.check_lname("data") && fs::is_directory(value, error)) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(value, error)) {
-      if (entry.is_regular_file(error)) {
-        files.insert(entry.path());
-      }
-    }
-  }
-  return files;
-}
-
-/// " files 3f2a9c", of the names and bytes of all files that the options of a run name, so that a
-/// run does not go on with an edited one; empty where they name none.
-std::string InputsOf(const CLI::App& verb) {
-  ContentHash hash;
-  bool any = false;
-  for (const CLI::Option* option : verb.get_options()) {
-    for (const std::string& value : option->results()) {
-      for (const fs::path& name : FilesNamed(*option, value)) {
-        std::ifstream file(name, std::ios::binary);
-        hash.Add(name.string());
-        hash.Add(std::string{std::istreambuf_iterator<char>(file), {}});
-        any = true;
-      }
-    }
-  }
-  return any ? " files " + ShortHash(hash.value()) : "";
 }
 
 Status CheckColumns(const std::vector<Experiment>& experiments, const TrialFile& file,
