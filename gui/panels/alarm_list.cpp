@@ -1,6 +1,7 @@
 // The list below the alarm strip: what stands, what is over and waits, in whole sentences.
 #include <algorithm>
 
+#include "engine/model/mission/alarm_text.h"
 #include "gui/panels/alarm_look.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/interact.h"
@@ -13,15 +14,37 @@ constexpr float kAnswers = 132;  ///< for the button, or what was answered
 
 struct AlarmRow {
   const Alarm* alarm = nullptr;
+  bool gone = false;
   std::vector<std::string> lines;
   float height = 0;
 };
 
-std::vector<AlarmRow> RowsOf(const EngineSnapshot& snap, float width, const Style& s) {
+/// While the list is open a row keeps its place: what comes is added below, and what is gone stays
+/// as it was told last, past answering. A button that moved would be pressed for another.
+void Follow(const std::vector<Alarm>& alarms, std::vector<ListedAlarm>& listed) {
+  for (ListedAlarm& row : listed) {
+    row.gone = true;
+    row.alarm.active = false;
+  }
+  for (const Alarm& alarm : alarms) {
+    const auto row = std::find_if(listed.begin(), listed.end(), [&](const ListedAlarm& old) {
+      return old.alarm.id == alarm.id;
+    });
+    if (row == listed.end()) {
+      listed.push_back({alarm});
+    } else {
+      *row = {alarm};
+    }
+  }
+}
+
+bool WaitsForAnswer(const AlarmRow& row) { return !row.gone && WaitsForAnswer(*row.alarm); }
+
+std::vector<AlarmRow> RowsOf(const std::vector<ListedAlarm>& listed, bool of_record, float width,
+                             const Style& s) {
   std::vector<AlarmRow> rows;
-  const bool of_record = FollowsRecord(snap.session->role);
-  for (const Alarm& alarm : snap.flight->mission.alarms) {
-    AlarmRow row{&alarm, WrapText(s.body, AlarmWords(alarm, of_record), width), 0};
+  for (const auto& [alarm, gone] : listed) {
+    AlarmRow row{&alarm, gone, WrapText(s.body, AlarmWords(alarm, of_record), width), 0};
     row.height = s.Px(kRow) + s.Px(kLine) * static_cast<float>(row.lines.size() - 1);
     rows.push_back(std::move(row));
   }
@@ -32,7 +55,7 @@ std::vector<AlarmRow> RowsOf(const EngineSnapshot& snap, float width, const Styl
 std::vector<std::string> OverAndWaiting(const std::vector<AlarmRow>& rows, std::size_t shown) {
   std::vector<std::string> ids;
   for (std::size_t i = 0; i < shown; ++i) {
-    if (!rows[i].alarm->active && WaitsForAnswer(*rows[i].alarm)) {
+    if (!rows[i].alarm->active && WaitsForAnswer(rows[i])) {
       ids.push_back(rows[i].alarm->id);
     }
   }
@@ -47,7 +70,7 @@ void DrawRow(const AlarmRow& row, bool of_record, const FrameState& state, const
   const AlarmLook look = LookOf(p, alarm.level);
   float y = rect.y + s.Px(kRow / 2);
   DrawIcon(Canvas(), look.icon, {rect.x + s.Px(25), y}, s.Px(12), look.colour);
-  if (!of_record && WaitsForAnswer(alarm)) {
+  if (!of_record && WaitsForAnswer(row)) {
     const Rect button{rect.right() - s.Px(27 + 112), y - s.Px(12), s.Px(112), s.Px(24)};
     if (DrawButton(ui, "acknowledge/" + alarm.id, button, "Acknowledge")) {
       ui.intents.push_back(CommandAction(AcknowledgeAlarm{alarm.id}));
@@ -64,49 +87,63 @@ void DrawRow(const AlarmRow& row, bool of_record, const FrameState& state, const
   }
 }
 
+/// The head never moves: how many stand, what has no room, and one answer for all that are over.
+void DrawHead(const EngineSnapshot& snap, const std::vector<AlarmRow>& rows, std::size_t shown,
+              const Rect& head, UiFrame& ui) {
+  const Style& s = ui.style;
+  const float y = head.centre().y;
+  const std::vector<Alarm>& alarms = snap.flight->mission.alarms;
+  std::string words = alarms.empty() ? "No alarms" : AlarmCountWords(alarms);
+  if (shown < rows.size()) {
+    words += "; " + std::to_string(rows.size() - shown) + " more below these, on Diagnose";
+  }
+  DrawText(ui, s.medium, s.palette.text1, head.x + s.Px(40), y, words);
+  const std::vector<std::string> over = OverAndWaiting(rows, shown);
+  if (over.size() < 2 || FollowsRecord(snap.session->role)) {
+    return;
+  }
+  const std::string all = "Acknowledge the " + std::to_string(over.size()) + " that are over";
+  const float width = TextWidth(s.body, all) + s.Px(24);
+  const Rect button{head.right() - s.Px(27) - width, y - s.Px(12), width, s.Px(24)};
+  if (DrawButton(ui, "acknowledge_over", button, all)) {
+    for (const std::string& id : over) {
+      ui.intents.push_back(CommandAction(AcknowledgeAlarm{id}));
+    }
+  }
+}
+
 }  // namespace
 
 void DrawAlarmList(const EngineSnapshot& snap, const FrameLayout& layout, FrameState& state,
                    UiFrame& ui) {
-  if (!state.history_open || snap.flight->mission.alarms.empty()) {
+  if (!state.history_open) {
+    state.listed.clear();
     return;
   }
+  Follow(snap.flight->mission.alarms, state.listed);
   const Style& s = ui.style;
   const Rect& strip = layout.alarm_strip;
-  const std::vector<AlarmRow> rows = RowsOf(snap, strip.w - s.Px(40 + 27 + kAnswers), s);
+  const bool of_record = FollowsRecord(snap.session->role);
+  const std::vector<AlarmRow> rows =
+      RowsOf(state.listed, of_record, strip.w - s.Px(40 + 27 + kAnswers), s);
   const float most = layout.body.h * 0.6f;
-  float height = s.Px(16);
+  float height = s.Px(kRow + 16);
   std::size_t shown = 0;
   for (; shown < rows.size() && height + rows[shown].height <= most; ++shown) {
     height += rows[shown].height;
   }
-  const bool more = shown < rows.size();
-  const std::vector<std::string> over = OverAndWaiting(rows, shown);
-  const bool together = over.size() > 1 && !FollowsRecord(snap.session->role);
-  const Rect list{strip.x, strip.bottom(), strip.w, height + (more || together ? s.Px(kRow) : 0)};
+  const Rect list{strip.x, strip.bottom(), strip.w, height};
   BeginOverlay("##alarm_history", list);
   ui.items.Add("panel/Alarm list", list, true, "");
   FillRect(Canvas(), list, s.palette.control);
   StrokeRect(Canvas(), list, s.palette.strong_line, s.Fine(1));
-  float y = list.y + s.Px(8);
+  const Rect head{list.x, list.y + s.Px(8), list.w, s.Px(kRow)};
+  DrawHead(snap, rows, shown, head, ui);
+  float y = head.bottom();
   for (std::size_t i = 0; i < shown; ++i) {
     const Rect rect{list.x, y, list.w, rows[i].height};
-    DrawRow(rows[i], FollowsRecord(snap.session->role), state, rect, ui);
+    DrawRow(rows[i], of_record, state, rect, ui);
     y = rect.bottom();
-  }
-  if (more) {
-    DrawText(ui, s.body, s.palette.text2, list.x + s.Px(40), y + s.Px(kRow / 2),
-             "And " + std::to_string(rows.size() - shown) + " more alarms, on Diagnose");
-  }
-  if (together) {
-    const std::string words = "Acknowledge the " + std::to_string(over.size()) + " that are over";
-    const float width = TextWidth(s.body, words) + s.Px(24);
-    const Rect button{list.right() - s.Px(27) - width, y + s.Px(2), width, s.Px(24)};
-    if (DrawButton(ui, "acknowledge_over", button, words)) {
-      for (const std::string& id : over) {
-        ui.intents.push_back(CommandAction(AcknowledgeAlarm{id}));
-      }
-    }
   }
   const bool on_list = Interact(ui, "alarm_history", list, kPassive).hovered;
   Interact(ui, "alarm_history", list, kNoTab);  // nothing below it is clicked

@@ -101,28 +101,29 @@ float DrawCount(const std::vector<Alarm>& all, const char* alone, float right, f
   return x;
 }
 
+constexpr float kShelve = 72, kAcknowledge = 112;
+
 /// Shelve of the first alarm, and Acknowledge of the first that waits for an answer: that may stand
-/// behind one that needs none, and is named then. Returns the left edge. An alarm of a recorded
-/// flight is past answering.
-float DrawAnswers(const std::vector<const Alarm*>& alarms, FrameState& state, float right, float y,
+/// behind one that needs none, and is named then. Both end where they always end, and nothing else
+/// comes there while a caution or a warning is told: a pointer on its way meets what it was sent
+/// for, or nothing. Returns the left edge. An alarm of a recorded flight is past answering.
+float DrawAnswers(const std::vector<const Alarm*>& alarms, FrameState& state, const Rect& strip,
                   UiFrame& ui) {
   const Style& s = ui.style;
   const Alarm& first = *alarms.front();
+  const float y = strip.centre().y, right = strip.right() - s.Px(20);
   ButtonLook look;
   look.flat = true;
   // What is over goes by its acknowledgement; there is nothing to put aside.
   const bool shelves = first.active && first.level != AlarmLevel::kAdvisory;
-  if (shelves || WaitsForAnswer(first)) {
-    const Rect shelve{right - s.Px(28 + 72), y - s.Px(12), s.Px(72), s.Px(24)};
-    if (shelves && DrawButton(ui, "shelve", shelve, "Shelve", look)) {
-      state.shelved.push_back({first.kind, first.level, first.since});
-    }
-    right = shelve.x;
+  const Rect shelve{right - s.Px(kShelve), y - s.Px(12), s.Px(kShelve), s.Px(24)};
+  if (shelves && DrawButton(ui, "shelve", shelve, "Shelve", look)) {
+    state.shelved.push_back({first.kind, first.level, first.since});
   }
   const auto waits = std::find_if(alarms.begin(), alarms.end(),
                                   [](const Alarm* alarm) { return WaitsForAnswer(*alarm); });
   if (waits == alarms.end()) {
-    return right;
+    return shelve.x - s.Px(8 + kAcknowledge);
   }
   const Alarm& asked = **waits;
   constexpr float kMostNamed = 300;
@@ -130,8 +131,8 @@ float DrawAnswers(const std::vector<const Alarm*>& alarms, FrameState& state, fl
   if (&asked != &first) {
     words += ": " + FitWords(s.body, AlarmSubject(asked.text), s.Px(kMostNamed));
   }
-  const float width = std::max(s.Px(112), TextWidth(s.body, words) + s.Px(24));
-  const Rect acknowledge{right - s.Px(8) - width, y - s.Px(12), width, s.Px(24)};
+  const float width = std::max(s.Px(kAcknowledge), TextWidth(s.body, words) + s.Px(24));
+  const Rect acknowledge{shelve.x - s.Px(8) - width, y - s.Px(12), width, s.Px(24)};
   if (DrawButton(ui, "acknowledge", acknowledge, words, look)) {
     ui.intents.push_back(CommandAction(AcknowledgeAlarm{asked.id}));
   }
@@ -139,6 +140,13 @@ float DrawAnswers(const std::vector<const Alarm*>& alarms, FrameState& state, fl
     DrawTooltip(ui, asked.text);  // the button names it in a few words
   }
   return acknowledge.x;
+}
+
+/// An advisory asks for no answer.
+bool AsksForAnswers(const std::vector<const Alarm*>& alarms) {
+  return std::any_of(alarms.begin(), alarms.end(), [](const Alarm* alarm) {
+    return alarm->level != AlarmLevel::kAdvisory;
+  });
 }
 
 /// Where the sentence of an alarm begins, from the strip's left edge.
@@ -214,7 +222,11 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
   const std::vector<Alarm>& all = snap.flight->mission.alarms;
   const bool of_record = FollowsRecord(snap.session->role);
   const Alarm& first = *alarms.front();
-  float right = DrawShelf(state, rect.right(), y, ui);
+  float right = rect.right();
+  if (!of_record && AsksForAnswers(alarms)) {
+    right = DrawAnswers(alarms, state, rect, ui);
+  }
+  right = DrawShelf(state, right, y, ui);
   // That there is nothing worse is worth less than what there is.
   const char* none = "No cautions";
   const float wanted = SentenceAt(s, LookOf(p, first.level)) +
@@ -230,7 +242,6 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
                             .clicked) {
     state.history_open = !state.history_open;
   }
-  right = of_record ? right : DrawAnswers(alarms, state, right, y, ui);
   const bool cut = DrawFirst(*alarms.front(), of_record, rect, right, ui);
   const Rect words{rect.x, rect.y, right - rect.x, rect.h};
   const Interaction in = Interact(ui, "alarm", words, 0, alarms.front()->text);

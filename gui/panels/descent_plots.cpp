@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/interact.h"
@@ -9,29 +10,14 @@ namespace palace {
 
 namespace {
 
-constexpr float kPast_s = 40;
-constexpr float kFuture_s = 24;
+constexpr float kPast_s = 40, kFuture_s = 24;
+/// Of a flight that has landed: all of its last minute, and no future.
+constexpr float kPastLanded_s = 60, kFutureLanded_s = 8;
 
 using Member = double HistorySample::*;
 
-std::vector<HistorySample>::const_iterator FirstShown(const EngineSnapshot& snap) {
-  const std::vector<HistorySample>& history = *snap.flight->history;
-  return std::lower_bound(history.begin(), history.end(),
-                          AddSeconds(snap.time, static_cast<double>(-kPast_s)),
-                          [](const HistorySample& sample, Timestamp t) { return sample.time < t; });
-}
-
-PlotTrace SeriesOf(const EngineSnapshot& snap, Member member, ImU32 colour, float width,
-                   PlotTrace::Stroke stroke = PlotTrace::Stroke::kSolid) {
-  PlotTrace series;
-  series.colour = colour;
-  series.width = width;
-  series.stroke = stroke;
-  for (auto it = FirstShown(snap); it != snap.flight->history->end(); ++it) {
-    series.points.push_back({static_cast<float>(SecondsBetween(snap.time, it->time)),
-                             static_cast<float>((*it).*member)});
-  }
-  return series;
+bool HasLanded(const EngineSnapshot& snap) {
+  return snap.flight->mission.state == MissionState::kLanded;
 }
 
 /// Samples of the flight; on the ground the estimate goes on drifting and means nothing more.
@@ -43,11 +29,49 @@ std::size_t SamplesFlown(const std::vector<HistorySample>& history) {
   return flown;
 }
 
+/// What is plotted of the history: samples `first` to `end`, against the time `zero`, which is now
+/// and after a landing the touchdown, so that the descent stays to be read.
+struct Shown {
+  Timestamp zero;
+  std::size_t first, end;
+};
+
+Shown ShownOf(const EngineSnapshot& snap) {
+  const std::vector<HistorySample>& history = *snap.flight->history;
+  const std::size_t flown = SamplesFlown(history);
+  const bool landed = HasLanded(snap);
+  const Timestamp zero = landed && flown > 0 ? history[flown - 1].time : snap.time;
+  const auto from = [&](float s) {
+    const Timestamp t = AddSeconds(zero, static_cast<double>(s));
+    const auto at = std::lower_bound(
+        history.begin(), history.end(), t,
+        [](const HistorySample& sample, Timestamp time) { return sample.time < time; });
+    return static_cast<std::size_t>(at - history.begin());
+  };
+  return {zero, from(landed ? -kPastLanded_s : -kPast_s),
+          landed ? from(kFutureLanded_s) : history.size()};
+}
+
+PlotTrace SeriesOf(const EngineSnapshot& snap, Member member, ImU32 colour, float width,
+                   PlotTrace::Stroke stroke = PlotTrace::Stroke::kSolid) {
+  PlotTrace series;
+  series.colour = colour;
+  series.width = width;
+  series.stroke = stroke;
+  const Shown shown = ShownOf(snap);
+  for (std::size_t i = shown.first; i < shown.end; ++i) {
+    const HistorySample& sample = (*snap.flight->history)[i];
+    series.points.push_back({static_cast<float>(SecondsBetween(shown.zero, sample.time)),
+                             static_cast<float>(sample.*member)});
+  }
+  return series;
+}
+
 /// The estimate in force, up to touchdown: thick.
 PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p) {
   PlotTrace series = SeriesOf(snap, member, p.safe, 2.2f);
-  const std::size_t landed = snap.flight->history->size() - SamplesFlown(*snap.flight->history);
-  series.points.resize(series.points.size() - std::min(landed, series.points.size()));
+  const std::size_t first = ShownOf(snap).first, flown = SamplesFlown(*snap.flight->history);
+  series.points.resize(std::min(flown - std::min(first, flown), series.points.size()));
   series.dot_at_end = true;
   return series;
 }
@@ -60,9 +84,9 @@ template <typename Sigma>
 PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p, Sigma sigma) {
   PlotTrace series = Estimate(snap, member, p);
   const std::vector<HistorySample>& history = *snap.flight->history;
-  const std::size_t end = SamplesFlown(history);
-  for (std::size_t i = end - std::min(end, series.points.size()); i < end; ++i) {
-    const double half = 3 * sigma(history[i]);
+  const std::size_t first = ShownOf(snap).first;
+  for (std::size_t i = 0; i < series.points.size(); ++i) {
+    const double half = 3 * sigma(history[first + i]);
     series.band.push_back(std::isfinite(half) ? static_cast<float>(half) : kAnywhere);
   }
   return series;
@@ -71,14 +95,20 @@ PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p, 
 /// Distances from one site say nothing of another: the lines begin where the one in question became
 /// so.
 void DropOtherSites(const EngineSnapshot& snap, PlotView& view) {
-  const auto first = FirstShown(snap), end = snap.flight->history->end();
-  if (first == end) {
-    return;
-  }
-  const Eigen::Vector2d site = (end - 1)->p_WS.head<2>();
+  const Shown shown = ShownOf(snap);
+  const auto first = snap.flight->history->begin() + static_cast<std::ptrdiff_t>(shown.first);
+  const auto end = snap.flight->history->begin() + static_cast<std::ptrdiff_t>(shown.end);
   auto from = end;
-  while (from != first && (from - 1)->p_WS.head<2>() == site) {
-    --from;
+  std::optional<Eigen::Vector2d> site;
+  for (; from != first; --from) {
+    const Eigen::Vector2d at = (from - 1)->p_WS.head<2>();
+    if (!at.allFinite()) {
+      continue;  // the position is not known, and so far nothing is told of another site
+    }
+    site = site.value_or(at);
+    if (at != *site) {
+      break;
+    }
   }
   const auto others = static_cast<std::size_t>(from - first);
   for (PlotTrace& series : view.series) {
@@ -88,15 +118,19 @@ void DropOtherSites(const EngineSnapshot& snap, PlotView& view) {
   }
 }
 
-PlotView Base(const char* name, const char* title, const char* unit) {
+PlotView Base(const EngineSnapshot& snap, const char* name, const char* title, const char* unit) {
   PlotView view;
   view.name = name;
   view.title = title;
   view.unit = unit;
-  view.x_min = -kPast_s;
-  view.x_max = kFuture_s;
-  view.x_ticks = {-40, -30, -20, -10, 0, 10, 20};
+  const bool landed = HasLanded(snap);
+  view.x_min = landed ? -kPastLanded_s : -kPast_s;
+  view.x_max = landed ? kFutureLanded_s : kFuture_s;
+  for (float tick = view.x_min; tick <= view.x_max; tick += landed ? 20 : 10) {
+    view.x_ticks.push_back(tick);
+  }
   view.now = 0.0f;
+  view.zero = landed ? "touchdown" : view.zero;
   return view;
 }
 
@@ -133,8 +167,7 @@ void HoldAll(PlotView& view, float step) {
 template <typename Get>
 PlotTrace Derived(const EngineSnapshot& snap, ImU32 colour, PlotTrace::Stroke stroke, Get get) {
   PlotTrace series = SeriesOf(snap, &HistorySample::laser_m, colour, 1.5f, stroke);
-  const auto& history = *snap.flight->history;
-  const std::size_t first = history.size() - series.points.size();
+  const std::size_t first = ShownOf(snap).first;
   for (std::size_t i = 0; i < series.points.size(); ++i) {
     series.points[i].y = static_cast<float>(get(first + i));
   }
@@ -188,7 +221,7 @@ std::vector<PlotLimit> LimitLine(const EngineSnapshot& snap, LimitId id) {
 
 PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   using Stroke = PlotTrace::Stroke;
-  PlotView view = Base("height", "Height above site", "m");
+  PlotView view = Base(snap, "height", "Height above site", "m");
   view.series = {Estimate(snap, &HistorySample::height_above_site_m, p,
                           [](const HistorySample& h) { return h.estimate_sigma_m.z(); }),
                  SeriesOf(snap, &HistorySample::truth_height_m, p.truth, 1.5f, Stroke::kDotted),
@@ -201,7 +234,7 @@ PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistoryS
   const float top = Largest(view.series, 4);
   view.y_max = RoundUp(top * 1.05f, top > 20 ? 10 : (top > 8 ? 5 : 2));
   HoldAll(view, 1);
-  view.current = Fixed(now.height_above_site_m, 1) + " m";
+  view.current = Fixed(now.height_above_site_m, 1) + Unit(now.height_above_site_m, " m");
   return view;
 }
 
@@ -213,7 +246,7 @@ float CentreLimitedSince(const EngineSnapshot& snap) {
   for (auto it = history.rbegin(); it != history.rend() && (it->centre_limited || !found); ++it) {
     if (it->centre_limited) {
       found = true;
-      since = static_cast<float>(SecondsBetween(snap.time, it->time));
+      since = static_cast<float>(SecondsBetween(ShownOf(snap).zero, it->time));
     }
   }
   return since;
@@ -221,7 +254,7 @@ float CentreLimitedSince(const EngineSnapshot& snap) {
 
 PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   using Stroke = PlotTrace::Stroke;
-  PlotView view = Base("distance", "Distance from site centre", "m");
+  PlotView view = Base(snap, "distance", "Distance from site centre", "m");
   const double band = 3 * snap.flight->navigation.InForce().estimate.sigma_p_m.head<2>().norm();
   view.series = {
       Estimate(snap, &HistorySample::from_site_m, p,
@@ -236,14 +269,15 @@ PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const Histor
   const float top = Largest(view.series, view.limits.empty() ? 1 : 2 * view.limits.front().value);
   view.y_max = RoundUp(top * 1.05f, top > 8 ? 5 : (top > 3 ? 1 : 0.5f));
   // A band below what is shown is none that anybody knows.
-  const bool known = !(band < 0.005);
-  view.current = Fixed(now.from_site_m, 2) + (known ? " ± " + Fixed(band, 2) : "") + " m";
+  const bool known = std::isfinite(now.from_site_m) && !(band < 0.005);
+  view.current = Fixed(now.from_site_m, 2) + (known ? " ± " + Fixed(band, 2) : "") +
+                 Unit(now.from_site_m, " m");
   return view;
 }
 
 PlotView RatePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   using Stroke = PlotTrace::Stroke;
-  PlotView view = Base("rate", "Descent rate", "m/s");
+  PlotView view = Base(snap, "rate", "Descent rate", "m/s");
   view.series = {Estimate(snap, &HistorySample::descent_rate_mps, p,
                           [](const HistorySample& h) { return h.descent_rate_sigma_mps; }),
                  RateOf(snap, &HistorySample::truth_p_WB, p.truth, Stroke::kDotted),
@@ -252,12 +286,12 @@ PlotView RatePlot(const EngineSnapshot& snap, const Palette& p, const HistorySam
   view.limits = LimitLine(snap, LimitId::kDescentRate);
   view.y_max = RoundUp(1.2f * (view.limits.empty() ? 1.5f : view.limits.front().value), 0.5f);
   HoldAll(view, 0.5f);
-  view.current = Fixed(now.descent_rate_mps, 2) + " m/s";
+  view.current = Fixed(now.descent_rate_mps, 2) + Unit(now.descent_rate_mps, " m/s");
   return view;
 }
 
 PlotView CoherencePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
-  PlotView view = Base("coherence", "Tracker coherence", "0 to 1");
+  PlotView view = Base(snap, "coherence", "Tracker coherence", "0 to 1");
   view.series = {Estimate(snap, &HistorySample::coherence, p)};
   view.y_min = 0.4f;
   view.y_max = 1.0f;
@@ -268,7 +302,7 @@ PlotView CoherencePlot(const EngineSnapshot& snap, const Palette& p, const Histo
 }
 
 PlotView ResidualPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
-  PlotView view = Base("residual", "Vision residual", "σ");
+  PlotView view = Base(snap, "residual", "Vision residual", "σ");
   view.series = {Estimate(snap, &HistorySample::residual_sigma, p)};
   view.y_min = 0;
   view.y_max = 4;
@@ -279,7 +313,7 @@ PlotView ResidualPlot(const EngineSnapshot& snap, const Palette& p, const Histor
 }
 
 PlotView PathPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
-  PlotView view = Base("path", "Off the planned path", "m");
+  PlotView view = Base(snap, "path", "Off the planned path", "m");
   view.series = {Estimate(snap, &HistorySample::glide_deviation_m, p,
                           [](const HistorySample& h) { return h.estimate_sigma_m.norm(); })};
   view.y_max = 1.6f;
@@ -365,7 +399,7 @@ std::array<PlotView, 6> DescentPlots(const EngineSnapshot& snap, const Palette& 
   std::array plots = {HeightPlot(snap, p, now),   DistancePlot(snap, p, now),
                       RatePlot(snap, p, now),     CoherencePlot(snap, p, now),
                       ResidualPlot(snap, p, now), PathPlot(snap, p, now)};
-  if (snap.flight->mission.state == MissionState::kLanded) {
+  if (HasLanded(snap)) {
     for (PlotView& plot : plots) {  // what drifts on after the touchdown is no figure of it
       plot.current = "landed";
     }

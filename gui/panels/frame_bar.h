@@ -18,6 +18,12 @@ struct ShelvedAlarm {
   Timestamp since;
 };
 
+/// A row of the alarm list.
+struct ListedAlarm {
+  Alarm alarm;
+  bool gone = false;  ///< told no more: over, and answered where it asked for an answer
+};
+
 /// Own state of the frame. The app sets what the frame cannot know from the snapshot.
 struct FrameState {
   Workspace workspace = Workspace::kFly;
@@ -25,6 +31,7 @@ struct FrameState {
   double frame_ms = 0;                   ///< set by the app
   std::string text_note;                 ///< set by the app: a text size that does not fit
   bool history_open = false;             ///< alarm list below the strip
+  std::vector<ListedAlarm> listed;       ///< its rows, in the order in which they came to it
   std::vector<ShelvedAlarm> shelved;     ///< as long as they stand as they were shelved
   /// UI clock when a wave-off was asked for last; set by the app, whoever asked.
   double wave_off_sent_s = -std::numeric_limits<double>::infinity();
@@ -47,7 +54,7 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
 void DrawFrameBar(const EngineSnapshot& snap, const FrameLayout& layout, FrameState& state,
                   UiFrame& ui);
 /// Call after the workspace: the violet frame and the list of alarms ("acknowledge/gps_error") lie
-/// over it.
+/// over it. The list opens and closes by the operator's hand alone, and its rows keep their places.
 void DrawFrameOverlay(const EngineSnapshot& snap, const FrameLayout& layout, FrameState& state,
                       UiFrame& ui);
 

@@ -78,6 +78,13 @@ float Sigmas3(double sigma_px, const PictureView& view) {
   return static_cast<float>(3 * sigma_px) * view.ScalePx();
 }
 
+/// What no legend may hide.
+void NoteMark(const PictureView& view, ImVec2 at, float half, UiFrame& ui) {
+  if (view.rect.Contains(at)) {
+    ui.items.Add(kTrackMark, {at.x - half, at.y - half, 2 * half, 2 * half}, true, "");
+  }
+}
+
 void DrawMember(const TrackerMember& member, const TrackerConsensus& consensus,
                 const PictureView& view, UiFrame& ui) {
   const Style& s = ui.style;
@@ -88,6 +95,7 @@ void DrawMember(const TrackerMember& member, const TrackerConsensus& consensus,
   }
   if (member.kind == TrackerMember::Kind::kFeature && member.pixel.allFinite()) {
     const ImVec2 at = view.ScreenFromPixel(member.pixel);
+    NoteMark(view, at, s.Px(kBracket), ui);
     if (member.followed()) {
       DrawBrackets(s, Canvas(), at, ink);
     } else {
@@ -98,6 +106,7 @@ void DrawMember(const TrackerMember& member, const TrackerConsensus& consensus,
     return;
   }
   const ImVec2 site = view.ScreenFromPixel(member.site_pixel);
+  NoteMark(view, site, s.Px(4), ui);
   if (member.drifts && consensus.site_pixel.allFinite()) {
     DashedLine(Canvas(), site, view.ScreenFromPixel(consensus.site_pixel), kDriftInk, s.Fine(2),
                s.Px(6), s.Px(4));
@@ -185,17 +194,28 @@ bool HidesWords(const ItemRecord& items, const Rect& plate, float around) {
   });
 }
 
-/// Where a plate of that size hides no words: above the fact at the lower right, else in another
-/// corner; nowhere in a small picture.
+bool HidesMarks(const ItemRecord& items, const Rect& plate) {
+  return std::any_of(items.items().begin(), items.items().end(), [&](const Item& item) {
+    const Rect& r = item.rect;
+    return item.name == kTrackMark && r.x < plate.right() && plate.x < r.right() &&
+           r.y < plate.bottom() && plate.y < r.bottom();
+  });
+}
+
+/// Where a plate of that size hides no words and, if there is such a place, no tracker: above the
+/// fact at the lower right, else in another corner; nowhere in a small picture.
 std::optional<Rect> FreeCorner(const Rect& image, ImVec2 size, const UiFrame& ui) {
   const Style& s = ui.style;
   const float left = image.x + s.Px(8), right = image.right() - s.Px(8) - size.x;
-  for (const ImVec2& at :
-       {ImVec2(right, image.bottom() - s.Px(38) - size.y), ImVec2(right, image.y + s.Px(36)),
-        ImVec2(left, image.y + s.Px(8)), ImVec2(left, image.bottom() - s.Px(84) - size.y)}) {
-    const Rect plate{at.x, at.y, size.x, size.y};
-    if (at.x >= left && at.y >= image.y && !HidesWords(ui.items, plate, s.Px(4))) {
-      return plate;
+  for (const bool over_marks : {false, true}) {
+    for (const ImVec2& at :
+         {ImVec2(right, image.bottom() - s.Px(38) - size.y), ImVec2(right, image.y + s.Px(36)),
+          ImVec2(left, image.y + s.Px(8)), ImVec2(left, image.bottom() - s.Px(84) - size.y)}) {
+      const Rect plate{at.x, at.y, size.x, size.y};
+      if (at.x >= left && at.y >= image.y && !HidesWords(ui.items, plate, s.Px(4)) &&
+          (over_marks || !HidesMarks(ui.items, plate))) {
+        return plate;
+      }
     }
   }
   return std::nullopt;

@@ -36,9 +36,6 @@ constexpr Stops kInferno = {0x000004, 0x040312, 0x0B0724, 0x150B37, 0x210C4A, 0x
 constexpr std::array<std::uint32_t, 6> kSafeDistance = {0xDCE9F7, 0x9CC3EA, 0x5B97D6,
                                                         0x2F67AE, 0x173D7A, 0x0A2250};
 
-constexpr Rgba8 kKeptSafe = RgbaFromHex(0x2B6FB5);
-constexpr Rgba8 kLost = RgbaFromHex(0xF0963C);
-constexpr Rgba8 kGained = RgbaFromHex(0xF2F5F8);
 constexpr Rgba8 kUnsafeInBoth = RgbaFromHex(0x161C22);
 
 std::uint8_t Between(std::uint8_t a, std::uint8_t b, double t) {
@@ -165,8 +162,8 @@ ImageRgba DifferencePicture(const HazardMaps& before, const HazardMaps& now) {
       const bool is_safe = CanBearLander(now, {row, col});
       const bool is_unknown = (reasons & kHazardUnknown) != 0;
       picture.at(col, row) = is_safe && was_safe         ? kKeptSafe
-                             : is_safe                   ? kGained
-                             : was_safe                  ? kLost
+                             : is_safe                   ? kGainedSafe
+                             : was_safe                  ? kLostSafe
                              : is_unknown && was_unknown ? kUnknownColour
                                                          : kUnsafeInBoth;
     }

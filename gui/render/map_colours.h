@@ -48,8 +48,13 @@ ImageRgba MapPicture(const GridF& values, ValueRange range, ColourMap map);
 /// Colour of one value; kUnknownColour for NaN.
 Rgba8 ColourOf(float value, ValueRange range, ColourMap map);
 
-/// What became of each safe cell: kept safe #2B6FB5, lost #F0963C, gained #F2F5F8, unsafe in both
-/// #161C22, unknown in both kUnknownColour. A cell is safe when it can bear the lander. Maps of
+/// Of DifferencePicture.
+inline constexpr Rgba8 kKeptSafe = RgbaFromHex(0x2B6FB5);
+inline constexpr Rgba8 kLostSafe = RgbaFromHex(0xF0963C);
+inline constexpr Rgba8 kGainedSafe = RgbaFromHex(0xF2F5F8);
+
+/// What became of each safe cell: kept safe, lost, gained, unsafe in both #161C22, unknown in both
+/// kUnknownColour. A cell is safe when it can bear the lander. Maps of
 /// different geometry are compared by place; cells of `now` outside `before` count as unsafe there.
 ImageRgba DifferencePicture(const HazardMaps& before, const HazardMaps& now);
 

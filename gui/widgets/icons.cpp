@@ -78,6 +78,10 @@ void DrawIn(const Pen& p, Icon icon) {
       p.dl->AddPolyline(points, 3, p.colour, 0, p.line * 1.2f);
       break;
     }
+    case Icon::kFails:
+      p.Line(-0.65f, -0.65f, 0.65f, 0.65f);
+      p.Line(-0.65f, 0.65f, 0.65f, -0.65f);
+      break;
     case Icon::kPlay:
       p.Triangle(-0.5f, -0.7f, 0.7f, 0, -0.5f, 0.7f);
       break;

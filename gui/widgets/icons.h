@@ -15,6 +15,7 @@ enum class Icon {
   kProvisional,  ///< ring half filled
   kStale,        ///< clock
   kDone,         ///< tick
+  kFails,        ///< cross
   // Actions, on a 20-unit box.
   kPlay,
   kPause,

@@ -59,7 +59,7 @@ std::string TimeText(const PlotView& view, float x) {
     return ClockLabel(x);
   }
   const std::string text = Fixed(static_cast<double>(x), 0);
-  return std::abs(x) < 1e-3f ? "now" : (x > 0 ? "+" + text : text);
+  return std::abs(x) < 1e-3f ? view.zero : (x > 0 ? "+" + text : text);
 }
 
 std::vector<float> TimeTicks(const Style& s, const Axes& axes) {

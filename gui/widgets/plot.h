@@ -33,6 +33,7 @@ struct PlotView {
   float x_min = 0, x_max = 1, y_min = 0, y_max = 1;
   std::vector<float> x_ticks;  ///< empty: chosen
   std::optional<float> now;    ///< beyond it the future is veiled
+  std::string zero = "now";    ///< what a relative time of 0 is called
   std::vector<PlotTrace> series;
   std::vector<PlotLimit> limits;
   enum class TimeAxis { kRelative, kClock } time_axis = TimeAxis::kRelative;  ///< "−10", "1:30"

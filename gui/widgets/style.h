@@ -64,7 +64,7 @@ inline constexpr ImU32 kUnknown = Rgb(0x1B222B);
 inline constexpr ImU32 kUnknownLine = Rgb(0x3A4552);
 inline constexpr ImU32 kUnsafeTint = WithAlpha(Rgb(0xF5963C), 0.10f);
 inline constexpr ImU32 kUnsafeLine = WithAlpha(Rgb(0xF5963C), 0.60f);
-inline constexpr ImU32 kTooNearLine = WithAlpha(Rgb(0xF5963C), 0.40f);
+inline constexpr ImU32 kNoPlaceLine = WithAlpha(Rgb(0xF5963C), 0.40f);
 inline constexpr ImU32 kSafe = Rgb(0x5CB2FF);
 inline constexpr ImU32 kLetterDark = Rgb(0x090C10);
 }  // namespace picture

@@ -39,7 +39,7 @@ void DrawGuards(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
     if (y + s.Px(10) > rect.bottom()) {
       return;
     }
-    DrawIcon(Canvas(), guard.pass ? Icon::kDone : Icon::kOff, {content.x + s.Px(20), y}, s.Px(12),
+    DrawIcon(Canvas(), guard.pass ? Icon::kDone : Icon::kFails, {content.x + s.Px(20), y}, s.Px(12),
              guard.pass ? p.text2 : p.text1);
     DrawText(ui, s.caption, p.text3, content.x + s.Px(36), y, GuardName(guard.id));
     const float width = DrawText(ui, guard.pass ? s.body : s.medium, guard.pass ? p.text2 : p.text1,

@@ -12,7 +12,13 @@
 namespace palace {
 namespace {
 
-constexpr float kTooNearSpacing = 18;  // twice that of what breaks a limit itself
+constexpr float kNoPlaceSpacing = 18;  // twice that of what breaks a limit itself
+
+/// No hazard itself, but a lander put down there would meet one, or stand over a limit: its ring may
+/// lie over such ground, for it is put down elsewhere.
+bool IsNoPlace(GroundClass ground) {
+  return ground == GroundClass::kTooNear || ground == GroundClass::kFootprint;
+}
 
 }  // namespace
 
@@ -34,11 +40,11 @@ void DrawVerdict(UiFrame& ui, const Rect& image, std::shared_ptr<const ImageU8> 
       {v.width(), v.height(), picture::kUnsafeTint, picture::kUnsafeLine, s.Fine(1.3f), s.Px(9)},
       [&](int row, int col) {
         const GroundClass g = ground(row, col);
-        return g != GroundClass::kLandable && g != GroundClass::kTooNear;
+        return g != GroundClass::kLandable && !IsNoPlace(g);
       });
   DrawCellHatch(dl, image,
-                {v.width(), v.height(), 0, picture::kTooNearLine, s.Fine(1), s.Px(kTooNearSpacing)},
-                [&](int row, int col) { return ground(row, col) == GroundClass::kTooNear; });
+                {v.width(), v.height(), 0, picture::kNoPlaceLine, s.Fine(1), s.Px(kNoPlaceSpacing)},
+                [&](int row, int col) { return IsNoPlace(ground(row, col)); });
   const float kx = image.w / static_cast<float>(v.width());
   const float ky = image.h / static_cast<float>(v.height());
   std::vector<ImVec2> line;

@@ -19,8 +19,8 @@ struct OverlayCache {
   LegendPlace legend;
 };
 
-/// Orange tint and hatch over a limit and where nothing is known, a sparse hatch where only a
-/// neighbour is a hazard, contour 1.5 px round what can be landed on.
+/// Orange tint and hatch over a limit and where nothing is known, a sparse hatch where there is no
+/// hazard itself but no place for a lander either, contour 1.5 px round what can be landed on.
 void DrawVerdict(UiFrame& ui, const Rect& image, std::shared_ptr<const ImageU8> verdict,
                  OverlayCache& cache);
 

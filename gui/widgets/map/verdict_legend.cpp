@@ -37,7 +37,8 @@ enum class Hidden { kLetters, kLettersAndRings };
 bool Hides(const UiFrame& ui, const Rect& plate, Hidden none_of) {
   return std::any_of(ui.items.items().begin(), ui.items.items().end(), [&](const Item& item) {
     const bool ring = item.name == kSiteRing || item.name == kLandingRing;
-    const bool stays = item.name == kSiteMark || item.name == kTrackLegend ||
+    const bool stays = item.name == kSiteMark || item.name == kTrackMark ||
+                       item.name == kTrackLegend ||
                        item.name == kVerdictLegend || (ring && none_of == Hidden::kLettersAndRings);
     return stays && Touches(item.rect, plate);
   });
@@ -89,13 +90,13 @@ void OverSwatch(const Style& s, const Rect& swatch) {
   Hatch(Canvas(), swatch, Rgb(0xF5963C), s.Fine(2), s.Fine(6));
 }
 
-void TooNearSwatch(const Style& s, const Rect& swatch) {
-  StrokeRect(Canvas(), swatch, picture::kTooNearLine, s.Fine(1));
+void NoPlaceSwatch(const Style& s, const Rect& swatch) {
+  StrokeRect(Canvas(), swatch, picture::kNoPlaceLine, s.Fine(1));
   Hatch(Canvas(), swatch, Rgb(0xF5963C), s.Fine(1), s.Fine(12));
 }
 
 constexpr std::array<LegendEntry, 3> kBrief = {
-    {{"Safe", SafeSwatch}, {"Over", OverSwatch}, {"Near", TooNearSwatch}}};
+    {{"Safe", SafeSwatch}, {"Over", OverSwatch}, {"No place", NoPlaceSwatch}}};
 
 float EntryWidth(const Style& s, const LegendEntry& entry) {
   return s.Px(kSwatch + 6) + TextWidth(s.caption, entry.words);
@@ -123,7 +124,7 @@ std::optional<Rect> DrawVerdictPlate(UiFrame& ui, const Rect& image, PlatePlace&
   const std::array<LegendEntry, 3> full = {
       {{GroundClassWord(GroundClass::kLandable), SafeSwatch},
        {"Over a limit or unknown", OverSwatch},
-       {GroundClassWord(GroundClass::kTooNear), TooNearSwatch}}};
+       {"No place for a lander", NoPlaceSwatch}}};
   const bool in_row = SizeOf(s, {full}).x + 2 * s.Px(kEdge) <= image.w;
   const LegendLayout layouts[] = {{full, in_row}, {kBrief}};
   Spots spots;

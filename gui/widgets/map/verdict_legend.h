@@ -1,11 +1,12 @@
 // Legend over the camera picture: what the hatches of the verdict mean, and the shapes of the
 // flags.
 //
-// Two plates, "Safe to land on | Over a limit or unknown | Too near a hazard" and one of the flags
-// that occur, each in a corner where it hides no letter and no ring of a site: the first at the top
-// left if it can, the second beside it. In small pictures the first is "Safe | Over | Near" and the
-// second a column (but not over the track view), if only these fit; where a ring fills the picture,
-// they stand over the ring. One that hides a letter wherever it stands is left out.
+// Two plates, "Safe to land on | Over a limit or unknown | No place for a lander" and one of the
+// flags that occur, each in a corner where it hides no letter, no ring of a site and no mark of a
+// tracker: the first at the top left if it can, the second beside it. In small pictures the first
+// is "Safe | Over | No place" and the second a column (but not over the track view), if only these
+// fit; where a ring fills the picture, they stand over the ring. One that hides a letter or a
+// tracker wherever it stands is left out.
 #pragma once
 
 #include <cstddef>
@@ -28,6 +29,7 @@ struct LegendPlace {
 inline constexpr const char *kVerdictLegend = "legend", *kFlagLegend = "flag_legend";
 /// An item of this name keeps its place: the plates stand elsewhere.
 inline constexpr const char* kTrackLegend = "track_legend";
+inline constexpr const char* kTrackMark = "track_mark";  ///< of a feature, of a tracker's site
 
 /// `flags`: that occur. A plate stays where it stood last while that is as good as any other place:
 /// `place`. Call after DrawSites.

@@ -122,6 +122,61 @@ TEST(AlarmList, WhatIsOverIsAnsweredTogether) {
   }
 }
 
+// A pointer on its way to a button meets that button, or nothing.
+TEST(AlarmStrip, ButtonsEndWhereTheyAlwaysEnd) {
+  EngineSnapshot snap = WarningBehindAnAdvisory();
+  auto& alarms = snap.flight.Edit().mission.alarms;
+  const Alarm wind{AlarmId::kWind, AlarmLevel::kCaution, "Wind 9.0 m/s."};
+  FlyWindow window(1280, 720, snap);
+  const auto end = [&](const char* name) {
+    const Item* item = window.ui.items.Find(name);
+    return item != nullptr ? item->rect.right() : NAN;
+  };
+  const float answer = end("acknowledge");
+  const Rect strip = window.ui.items.Find("panel/Alarm strip")->rect;
+  alarms = {wind};
+  window.snap = snap;
+  window.ui.Frame(window.draw);
+  EXPECT_FLOAT_EQ(end("acknowledge"), answer);
+  const float shelve = end("shelve");
+  EXPECT_GT(shelve, answer);
+  alarms[0].acknowledged = true;
+  alarms.push_back({AlarmId::kExposure, AlarmLevel::kAdvisory, "Site B lies half in shadow."});
+  window.snap = snap;
+  window.ui.Frame(window.draw);
+  EXPECT_EQ(window.ui.items.Find("acknowledge"), nullptr);
+  EXPECT_FLOAT_EQ(end("shelve"), shelve);
+  EXPECT_LE(end("alarm_count"), answer - 112) << "nothing else comes there";
+  EXPECT_GT(shelve, strip.right() - 40);
+}
+
+// What ends or comes while the list is open moves no row; only the operator opens and closes it.
+TEST(AlarmList, RowsKeepTheirPlacesWhileItIsOpen) {
+  EngineSnapshot snap = WarningBehindAnAdvisory();
+  auto& alarms = snap.flight.Edit().mission.alarms;
+  const Alarm wind{AlarmId::kWind, AlarmLevel::kCaution, "Wind 9.0 m/s."};
+  alarms.push_back(wind);
+  FlyWindow window(1280, 720, snap);
+  window.ui.Click("alarm", window.draw);
+  window.ui.Frame(window.draw);
+  const auto place = [&](AlarmId id) {
+    return window.ui.items.Find(std::string("acknowledge/") + AlarmName(id))->rect.y;
+  };
+  const float of_wind = place(AlarmId::kWind);
+  alarms = {{AlarmId::kGpsError, AlarmLevel::kWarning, "GPS horizontal error 2.6 m."}, wind};
+  window.snap = snap;
+  window.ui.Frame(window.draw);
+  EXPECT_FLOAT_EQ(place(AlarmId::kWind), of_wind);
+  EXPECT_GT(place(AlarmId::kGpsError), of_wind);
+  EXPECT_TRUE(HasText(window.ui.items, "Ended: Site B lies half in shadow"));
+  alarms.clear();
+  window.snap = snap;
+  window.ui.Frame(window.draw);
+  EXPECT_TRUE(window.bar.history_open);
+  EXPECT_TRUE(HasText(window.ui.items, "Ended: Wind 9.0 m/s"));
+  EXPECT_EQ(window.ui.items.Find(std::string("acknowledge/") + AlarmName(AlarmId::kWind)), nullptr);
+}
+
 // Where the words have no room whole clauses stand, and the pointer tells the rest.
 TEST(AlarmStrip, CutsNoClauseInTwo) {
   EngineSnapshot snap = WarningBehindAnAdvisory();

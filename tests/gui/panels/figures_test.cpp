@@ -74,6 +74,51 @@ TEST(Plots, AfterTheLandingNoFigureDriftsOn) {
   }
 }
 
+// However long ago it was: the last minute before the touchdown stays to be read.
+TEST(Plots, TheDescentStaysAfterTheLanding) {
+  EngineSnapshot landed = fake::Snapshot(MissionState::kLanded);
+  auto history = *landed.flight->history;
+  ASSERT_GT(history.size(), 20U);
+  const std::array<PlotView, 6> at_once = DescentPlots(landed, Palette{});
+  for (int i = 1; i <= 3000; ++i) {  // five minutes on the ground
+    HistorySample sample = history.back();
+    sample.time = AddSeconds(sample.time, 0.1);
+    sample.state = MissionState::kLanded;
+    sample.height_above_site_m = 99;
+    history.push_back(sample);
+  }
+  landed.time = history.back().time;
+  landed.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
+  const std::array<PlotView, 6> later = DescentPlots(landed, Palette{});
+  for (std::size_t i = 0; i < later.size(); ++i) {
+    SCOPED_TRACE(later[i].name);
+    const auto& before = at_once[i].series[0].points;
+    const auto& after = later[i].series[0].points;
+    ASSERT_EQ(after.size(), before.size());
+    EXPECT_FLOAT_EQ(after.back().x, 0);
+    EXPECT_TRUE(after.back().y == before.back().y || std::isnan(before.back().y));
+    EXPECT_EQ(later[i].zero, "touchdown");
+  }
+}
+
+// Without a position nothing is said of its error, and what was plotted before stays.
+TEST(Plots, TheDistanceKeepsItsPastWhenThePositionIsLost) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
+  auto history = *snap.flight->history;
+  const std::size_t lost = 10;
+  ASSERT_GT(history.size(), 2 * lost);
+  for (std::size_t i = history.size() - lost; i < history.size(); ++i) {
+    history[i].p_WS = Eigen::Vector3d::Constant(NAN);
+    history[i].from_site_m = NAN;
+  }
+  snap.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
+  const PlotView plot = DescentPlots(snap, Palette{})[1];
+  EXPECT_EQ(plot.current, "––");
+  const auto& points = plot.series[0].points;
+  EXPECT_TRUE(std::isfinite(points[points.size() - lost - 1].y));
+  EXPECT_TRUE(std::isnan(points.back().y));
+}
+
 TEST(Landed, ElsewhereThanOnTheSiteIsNotOnTheSite) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kLanded);
   MissionStatus& m = snap.flight.Edit().mission;
