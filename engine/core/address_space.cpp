@@ -9,6 +9,12 @@ namespace palace {
 
 Status EnoughMemory(std::size_t mebibytes) {
   const std::size_t bytes = mebibytes << 20;
+  void* room = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED) {
+    return UnavailableError("out of memory: no room for " + std::to_string(mebibytes) +
+                            " MiB more; allow this program more (ulimit -v) or end other programs");
+  }
+  munmap(room, bytes);
   struct sysinfo machine {};
   if (sysinfo(&machine) == 0) {
     const std::size_t there_MiB =
@@ -16,15 +22,9 @@ Status EnoughMemory(std::size_t mebibytes) {
     if (mebibytes > there_MiB) {  // the kernel would promise it, and kill for it later
       return UnavailableError("out of memory: " + std::to_string(mebibytes) +
                               " MiB are needed, this machine has " + std::to_string(there_MiB) +
-                              " MiB with its swap space");
+                              " MiB with its swap space; ask for less, or use a larger one");
     }
   }
-  void* room = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (room == MAP_FAILED) {
-    return UnavailableError("out of memory: no room for " + std::to_string(mebibytes) +
-                            " MiB more; allow this program more (ulimit -v) or end other programs");
-  }
-  munmap(room, bytes);
   return Ok();
 }
 

@@ -1,6 +1,7 @@
 // Signals as wishes: taken in order, told once, and the second one does not wait.
 #include "engine/core/termination.h"
 
+#include <sys/sysinfo.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -85,6 +86,14 @@ TEST(AddressSpace, MoreThanThereIsIsRefusedWithTheRemedy) {
   const Status refused = EnoughMemory(std::size_t{1} << 40);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("ulimit -v"), std::string::npos);
+  // The kernel would promise more than the machine has, and kill for it later.
+  struct sysinfo machine {};
+  ASSERT_EQ(sysinfo(&machine), 0);
+  const std::size_t there_MiB =
+      (std::size_t{machine.totalram} + machine.totalswap) * machine.mem_unit >> 20;
+  const Status promised = EnoughMemory(there_MiB + 1024);
+  ASSERT_FALSE(promised);
+  EXPECT_NE(promised.error().message.find("out of memory"), std::string::npos);
 }
 
 }  // namespace
