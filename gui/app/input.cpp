@@ -96,6 +96,21 @@ void FeedShortTaps(const std::vector<KeyEvent>& events, std::vector<ImGuiKey>& h
 #endif
 }
 
+void FeedPointer(const std::vector<PointerEvent>& events, PointerQueue& queue) {
+  queue.Add(events);
+  const std::optional<PointerState> pointer = queue.Take();
+#if IMGUI_VERSION_NUM < 18900
+  if (pointer) {
+    FeedMousePosition(pointer->at);
+    for (int button = 0; button < kPointerButtons; ++button) {
+      FeedMouseButton(button, pointer->down[static_cast<std::size_t>(button)]);
+    }
+  }
+#else
+  static_cast<void>(pointer);
+#endif
+}
+
 bool IsKey(const std::string& keys) {
   std::string base = keys;
   for (const char* modifier : {"Ctrl+", "Alt+", "Shift+"}) {  // in the order of KeyName

@@ -6,6 +6,7 @@
 
 #include <imgui.h>
 
+#include "gui/app/pointer_queue.h"
 #include "gui/app/script.h"
 #include "gui/platform/window.h"
 
@@ -18,6 +19,9 @@ void FeedScriptInput(const ScriptInput& input, std::vector<ImGuiKey>& previous);
 /// reads arrays and would miss them; nothing where it takes events. `held` carries them to the next
 /// frame.
 void FeedShortTaps(const std::vector<KeyEvent>& events, std::vector<ImGuiKey>& held);
+/// What the window's pointer did since the last frame, one change of a button a frame, where ImGui
+/// reads the pointer as a state; nothing where it takes events, for then it does so itself.
+void FeedPointer(const std::vector<PointerEvent>& events, PointerQueue& queue);
 /// "Shift+Escape", "Ctrl+Z", "Space": the key table's spelling. Letters follow the keyboard's
 /// layout.
 std::string KeyName(const KeyEvent& event);

@@ -156,7 +156,9 @@ class StationRun {
     if (surface_.minimised() || restarts_.waiting()) {
       return kMinimisedWait_s;
     }
-    return frame_ms_ > kSlowFrame_ms ? std::min(3e-3 * frame_ms_, kMinimisedWait_s) : 0;
+    return frame_ms_ > kSlowFrame_ms && !pointer_.waiting()
+               ? std::min(3e-3 * frame_ms_, kMinimisedWait_s)
+               : 0;
   }
 
   /// Moves the UI clock on; returns by how much.
@@ -253,6 +255,7 @@ class StationRun {
         FeedScriptInput(input, keys_down_);
       } else {
         FeedShortTaps(window_input.keys, keys_down_);
+        FeedPointer(window_input.pointer, pointer_);
       }
     });
     Intents intents = view_->Draw(snapshot, session_.record.get(), state_, backend.fonts(), frame);
@@ -321,6 +324,7 @@ class StationRun {
   double ui_time_s_ = 0;
   double frame_ms_ = 0;
   std::vector<ImGuiKey> keys_down_;
+  PointerQueue pointer_;
   std::vector<std::string> screenshots_;
   WindowRestarts restarts_;
 };

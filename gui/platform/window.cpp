@@ -14,6 +14,7 @@ namespace palace {
 /// What the callbacks saw since the last PollInput.
 struct Window::Latch {
   WindowInput input;
+  PointerEvent pointer;  ///< where it moved to last
   bool hidden = false;
 };
 
@@ -101,6 +102,22 @@ void Window::InstallCallbacks(GLFWwindow* window) {
                                                    : KeyAction::kRelease;
     static_cast<Latch*>(glfwGetWindowUserPointer(w))
         ->input.keys.push_back({key, mods, what, name != nullptr ? name : ""});
+  });
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    auto* latch = static_cast<Latch*>(glfwGetWindowUserPointer(w));
+    latch->pointer = {static_cast<float>(x), static_cast<float>(y)};
+    latch->input.pointer.push_back(latch->pointer);
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+    if (button >= kPointerButtons) {
+      return;
+    }
+    auto* latch = static_cast<Latch*>(glfwGetWindowUserPointer(w));
+    // glfwGetCursorPos asks the display where the pointer is by now.
+    PointerEvent change = latch->pointer;
+    change.button = button;
+    change.down = action == GLFW_PRESS;
+    latch->input.pointer.push_back(change);
   });
 }
 

@@ -22,10 +22,20 @@ struct KeyEvent {
   std::string name;
 };
 
+/// Left, right and middle, in GLFW's order.
+inline constexpr int kPointerButtons = 3;
+/// The pointer moved, or a button changed where it was then; in screen coordinates of the window.
+struct PointerEvent {
+  float x = 0, y = 0;
+  int button = -1;  ///< -1: none changed
+  bool down = false;
+};
+
 /// Everything since the last call that ImGui does not take itself: a press and release inside one
 /// frame is not lost.
 struct WindowInput {
   std::vector<KeyEvent> keys;
+  std::vector<PointerEvent> pointer;
   bool focused = true;
   bool close_requested = false;
 };

@@ -1,0 +1,36 @@
+// Presses and releases of the mouse, each told where it happened.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <imgui.h>
+
+#include "gui/platform/window.h"
+
+namespace palace {
+
+/// What a frame sees of the pointer.
+struct PointerState {
+  ImVec2 at;
+  std::array<bool, kPointerButtons> down{};
+};
+
+/// A frame that takes long sees several events at once. Read as a state, a press would count where
+/// the pointer has gone to since, on another button, or be lost with its release. So a frame sees
+/// at most one change of a button, with the pointer where it was then; what came later waits for
+/// the next frames.
+class PointerQueue {
+ public:
+  void Add(const std::vector<PointerEvent>& events);
+  bool waiting() const { return !events_.empty(); }
+  /// Of the next frame; nothing when no event waits.
+  std::optional<PointerState> Take();
+
+ private:
+  std::vector<PointerEvent> events_;
+  std::array<bool, kPointerButtons> down_{};
+};
+
+}  // namespace palace
