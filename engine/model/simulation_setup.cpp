@@ -42,7 +42,7 @@ void Widen(PinholeCamera& camera, double field_of_view_deg) {
 
 const std::vector<SimulationRow>& SimulationTable() {
   static const std::vector<SimulationRow> table = {
-      Row("simulation.wind_mps", "Wind, mean", "m/s", 0, 20, 0, 1, &Setup::wind_mps, false),
+      Row("simulation.wind_mps", "Wind at 6 m, mean", "m/s", 0, 20, 0, 1, &Setup::wind_mps, false),
       Row("simulation.wind_from_deg", "Wind from", "\u00b0", 0, 360, 0, 0, &Setup::wind_from_deg,
           false),
       Row("simulation.field_of_view_deg", "Field of view", "\u00b0", 20, 100, 45, 0,

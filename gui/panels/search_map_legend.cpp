@@ -1,6 +1,8 @@
 #include "gui/panels/search_map_legend.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -29,7 +31,14 @@ void NextView(const Style& s, const Rect& r) {
 }
 void Area(const Style& s, const Rect& r) { StrokeRect(Canvas(), r, picture::kWhite, s.Fine(1.5F)); }
 void Circle(const Style& s, const Rect& r) {
-  Canvas()->AddCircle(r.centre(), r.w / 2, s.palette.text3, 0, s.Fine(1));
+  constexpr int kCorners = 24;
+  std::vector<ImVec2> points;
+  for (int k = 0; k <= kCorners; ++k) {
+    const float turn = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / kCorners;
+    points.push_back(
+        {r.centre().x + r.w / 2 * std::cos(turn), r.centre().y + r.w / 2 * std::sin(turn)});
+  }
+  DashedPolyline(Canvas(), points, s.palette.text3, s.Fine(1), s.Px(4), s.Px(3));
 }
 void Suits(const Style& s, const Rect& r) {
   const float y = r.centre().y;
@@ -63,7 +72,7 @@ std::vector<Entry> EntriesOf(const EngineSnapshot& snap) {
     entries.push_back({"Next looks keep to " + Fixed(SeenGround::kSearched_m, 0) + " m", Circle});
   }
   if (HasCourses(m)) {
-    entries.push_back({"Course suits", Suits});
+    entries.push_back({"Course suits (ring: fully)", Suits});
     entries.push_back({"Blocked or downwind", Vetoed});
     entries.push_back({"Planned course", Planned});
   }

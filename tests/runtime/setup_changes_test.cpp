@@ -27,8 +27,8 @@ TEST(SetupChanges, ADraggedSliderIsToldAtOnceAndWhereItEnded) {
       told.push_back(change + WithNumbers(" at %.1f s", 0.1 * k));
     }
   }
-  EXPECT_EQ(told, (std::vector<std::string>{"Wind, mean: 0.0 m/s to 0.6 m/s at 1.0 s",
-                                            "Wind, mean: 0.6 m/s to 6.0 m/s at 2.0 s"}));
+  EXPECT_EQ(told, (std::vector<std::string>{"Wind at 6 m, mean: 0.0 m/s to 0.6 m/s at 1.0 s",
+                                            "Wind at 6 m, mean: 0.6 m/s to 6.0 m/s at 2.0 s"}));
 }
 
 TEST(SetupChanges, EveryRowIsToldAndWhatStandsIsNoChange) {

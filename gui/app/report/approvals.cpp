@@ -38,6 +38,16 @@ std::string WindWords(const ApprovalRecord& record) {
                                                       : "");
 }
 
+/// As the button said it.
+const char* StandingWhenGiven(const ApprovalRecord& record) {
+  if (!record.approval.provisional) {
+    return ", confirmed";
+  }
+  const bool unseen = record.map != nullptr &&
+                      StandingOf(record.site, record.map->settings) == SiteStanding::kToLookAt;
+  return unseen ? ", not seen enough (look first)" : ", provisional";
+}
+
 Rows Figures(const ApprovalRecord& record) {
   const Approval& a = record.approval;
   Rows rows = {
@@ -45,7 +55,7 @@ Rows Figures(const ApprovalRecord& record) {
       {"Site", record.site.letter +
                    WithNumbers(": %.2f m north, %.2f m east, %.2f m up", a.p_WS.x(), a.p_WS.y(),
                                -a.p_WS.z()) +
-                   (a.provisional ? ", provisional" : ", confirmed")},
+                   StandingWhenGiven(record)},
       {"For", a.IsLook() ? WithNumbers("a look from %.0f m above it", a.stop_height_m) : "landing"},
       {"Radius to keep clear", WithNumbers("%.2f m", a.clear_radius_m)},
       {"Approach",
