@@ -99,10 +99,12 @@ std::vector<LimitRow> LimitsOfDescent(const DescentFigures& f) {
   const bool descending = f.state == MissionState::kDescending;
   const bool watched = IsFlying(f.state) || f.state == MissionState::kHold;
   const EnforcedBy in_descent = descending ? EnforcedBy::kAlarm : EnforcedBy::kNobody;
-  // Waved off and on the ground there is nothing to approve and nothing to watch.
+  // Waved off and on the ground no site is approved and none is watched.
   const EnforcedBy before_and_in = f.state <= MissionState::kArmed ? EnforcedBy::kGuard
                                    : watched                       ? EnforcedBy::kAlarm
                                                                    : EnforcedBy::kNobody;
+  // A wave-off ends no wind: the next approval meets it.
+  const EnforcedBy wind = f.state == MissionState::kAborting ? EnforcedBy::kAlarm : before_and_in;
   return {Judged(PlaceRow(f, in_descent)),
           Judged({.id = LimitId::kDescentRate,
                   .label = "Descent rate",
@@ -126,7 +128,7 @@ std::vector<LimitRow> LimitsOfDescent(const DescentFigures& f) {
                   .unit = "σ",
                   .decimals = 2,
                   .enforced_by = f.tracked ? EnforcedBy::kAlarm : EnforcedBy::kNobody}),
-          WindLimit(f.wind_mps, f.max_wind_mps, before_and_in),
+          WindLimit(f.wind_mps, f.max_wind_mps, wind),
           Judged({.id = LimitId::kOffWind,
                   .label = "Approach off wind",
                   .value = f.off_wind_rad,

@@ -335,6 +335,30 @@ void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, Appr
   }
 }
 
+/// "Commits the vehicle to land on site A."
+std::string CommitmentWords(const MissionStatus& m) {
+  const std::string commits = m.can_approve ? "Commits" : "Would commit";
+  return m.IsRefused(m.armed->id)
+             ? commits + " to land on " + m.armed->letter + ", which you refused."
+             : commits + " the vehicle to land on site " + m.armed->letter + ".";
+}
+
+/// With a selection, and with its end, other buttons come into the panel's head. Where the pointer
+/// waits there they take no press for a moment: it may be meant for the one that stood there.
+std::string_view WhyWithheld(const Rect& panel, bool armed, ApproveState& state,
+                             const UiFrame& ui) {
+  constexpr double kMoment_s = 1.0;
+  const Rect head{panel.x, panel.y, panel.w, ui.style.Px(64)};
+  if (state.head_is_armed != armed) {
+    state.head_is_armed = armed;
+    if (head.Contains(ImGui::GetIO().MousePos)) {
+      state.withheld_until_s = ui.ui_time_s + kMoment_s;
+    }
+  }
+  return ui.ui_time_s < state.withheld_until_s ? "This came up under the pointer just now"
+                                               : std::string_view();
+}
+
 }  // namespace
 
 void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
@@ -345,6 +369,7 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   const std::string fact = m.armed ? std::string("Site ") + m.armed->letter + " selected" : "";
   const bool armed = m.state == MissionState::kArmed && m.armed && m.may_select;
   DrawPanelFrame(ui, rect, "Approve", {{narrow || armed ? std::string() : fact}});
+  ui.withheld = WhyWithheld(rect, m.armed.has_value(), state, ui);
   float head = rect.x + s.Px(12) + TextWidth(s.medium, "Approve");
   const bool lacks_look = armed && m.next_look;  // without it the site cannot be approved
   if (m.may_select && m.OffersLook() && !lacks_look) {
@@ -367,8 +392,7 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   const float width = rect.w - s.Px(24);
   if (m.armed) {
     DrawText(ui, narrow ? s.medium : s.section, p.text1, x, rect.y + s.Px(narrow ? 42 : 46),
-             std::string(m.can_approve ? "Commits" : "Would commit") +
-                 " the vehicle to land on site " + m.armed->letter + ".");
+             CommitmentWords(m));
     DrawConsequence(ApprovalConsequence(snap, narrow), rect, narrow, ui);
     DrawChecks(snap, rect, rect.y + s.Px(narrow ? 88 : 137), narrow, state, ui);
     if (!narrow) {
@@ -383,6 +407,7 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
     DrawWhatNow(snap, {x, rect.y + s.Px(narrow ? 54 : 63), width, 0}, ButtonsTop(rect, narrow, s),
                 ui);
   }
+  ui.withheld = {};
   DrawButtons(snap, rect, narrow, state, ui);
   if (state.show_guards && !m.guards.empty()) {
     DrawGuardList(snap, rect, ui);

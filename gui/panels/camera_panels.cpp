@@ -158,7 +158,7 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   }
   const LandingSite* site = SiteInView(snap, 0);
   if (site != nullptr) {
-    DrawScaleBar(ui, image, view.PixelsPerMetre(site->p_WS));
+    DrawScaleBar(ui, image, view.ScaleOfPicture(site->p_WS));
   }
   TextPlate(
       ui, image, Corner::kBottomRight,
@@ -197,7 +197,7 @@ void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, const Ma
   }
   if (camera && site != nullptr) {
     const PictureView view{*camera, snap.sensors->X_WC, image};
-    DrawScaleBar(ui, image, view.PixelsPerMetre(site->p_WS));
+    DrawScaleBar(ui, image, view.ScaleOfPicture(site->p_WS));
   }
   // Of another picture it says nothing here; Diagnose tells it with its age.
   if (RangesAreOfPicture(snap) && std::isfinite(snap.terrain->stereo_quality.row_error_px)) {

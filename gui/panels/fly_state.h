@@ -49,6 +49,10 @@ struct ApproveState {
   HoldState take_over;  ///< of command, from another station
   bool show_guards = false;
   std::uint64_t armed = 0;  ///< site that was armed in the last frame
+  /// Until then (UI clock) the head's buttons take no press: they came up under the pointer, which
+  /// may have been on its way to those that stood there.
+  double withheld_until_s = -std::numeric_limits<double>::infinity();
+  bool head_is_armed = false;  ///< the head's buttons were those of a selected site
   /// The approval asked for last, until the engine says what became of it.
   std::uint64_t asked_site = 0;
   double asked_at_s = -std::numeric_limits<double>::infinity();  ///< UI clock

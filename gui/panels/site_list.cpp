@@ -35,6 +35,9 @@ Rows RowsOf(const TerrainDecision* known, const MissionStatus& mission) {
       listed.rows.push_back({site.id, site.letter, &site});
       armed = armed || (mission.armed && mission.armed->id == site.id);
     }
+    // What the operator refused is no offer: it stays to be looked at again, below those that are.
+    std::stable_partition(listed.rows.begin(), listed.rows.end(),
+                          [&](const Row& row) { return !mission.IsRefused(row.id); });
   }
   if (mission.armed && !armed) {
     const LandingSite& site = mission.armed_now ? *mission.armed_now : *mission.armed;

@@ -133,7 +133,7 @@ void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
     overlay.landing_word = LandingWord(snap.flight->mission);
     DrawSites(ui, view, overlay);
     if (overlay.selected) {
-      DrawScaleBar(ui, image, view.PixelsPerMetre(overlay.selected->p_WS));
+      DrawScaleBar(ui, image, view.ScaleOfPicture(overlay.selected->p_WS));
     }
   }
   if (look.track_view) {

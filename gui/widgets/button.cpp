@@ -8,7 +8,8 @@ bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::strin
                 const ButtonLook& look) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const Interaction in = Interact(ui, name, rect, look.enabled ? 0U : unsigned{kDisabled}, label);
+  const bool enabled = look.enabled && ui.withheld.empty();
+  const Interaction in = Interact(ui, name, rect, enabled ? 0U : unsigned{kDisabled}, label);
   if (look.unseen && !in.hovered && !in.focused) {
     return in.clicked;
   }
@@ -16,7 +17,7 @@ bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::strin
   ImU32 fill = look.flat ? 0 : p.control;
   ImU32 border = p.strong_line;
   ImU32 text = p.text1;
-  if (!look.enabled) {
+  if (!enabled) {
     border = p.line;
     text = p.text3;
   } else if (look.active) {
@@ -37,10 +38,12 @@ bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::strin
     DrawText(ui, font, text, rect.centre().x, middle, label, Align::kCentre);
   } else {
     DrawText(ui, font, text, rect.centre().x, middle - s.Px(9), label, Align::kCentre);
-    DrawText(ui, s.caption, look.enabled ? p.text2 : p.text3, rect.centre().x, middle + s.Px(11),
+    DrawText(ui, s.caption, enabled ? p.text2 : p.text3, rect.centre().x, middle + s.Px(11),
              FitClauses(s.caption, look.sub, rect.w - s.Px(6)), Align::kCentre);
   }
-  const std::string_view told = look.enabled ? look.hint : look.reason;
+  const std::string_view told = enabled         ? look.hint
+                                : !look.enabled ? look.reason
+                                                : ui.withheld;
   if (in.hovered && !told.empty()) {
     DrawTooltip(ui, told, &rect);
   }

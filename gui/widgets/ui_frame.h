@@ -134,6 +134,8 @@ struct UiFrame {
   WayJudge why_not_flown = nullptr;   ///< null: only what the snapshot itself says
   WayLength unseen_on_way = nullptr;  ///< metres over ground that no map showed; null: not told
   TabPlace tab{};                     ///< of the controls drawn now; panels set it
+  /// Why the buttons drawn now take no press yet; panels set it. Empty: they do.
+  std::string_view withheld{};
   std::optional<FocusMark> ring{};    ///< set by Interact, drawn by EndCanvas
 };
 

@@ -268,7 +268,25 @@ TEST(DescentLimits, NothingIsOverOutsideOfItsTime) {
   }
 }
 
-// Who acts on the tracker and the wind follows the mission: nothing is blocked on the ground.
+// A wave-off ends no wind: its alarm is not over while it blows, and asks for nothing of a descent.
+TEST(WindAlarm, StandsWhileAWaveOffIsFlown) {
+  MissionRig rig;
+  Descend(rig);
+  rig.vehicle.wind_mps = 14;
+  rig.Run(0.6);
+  ASSERT_NE(FindAlarm(rig, "wind"), nullptr);
+  EXPECT_EQ(FindAlarm(rig, "wind")->level, AlarmLevel::kWarning);
+  ASSERT_TRUE(rig.Do(WaveOff{}));
+  rig.Run(1);
+  ASSERT_EQ(rig.state(), MissionState::kAborting);
+  const Alarm* alarm = FindAlarm(rig, "wind");
+  ASSERT_NE(alarm, nullptr);
+  EXPECT_TRUE(alarm->active);
+  EXPECT_EQ(alarm->text, "Wind 14.0 m/s, limit 8.0 m/s. No site is approved in it: wait for less.");
+}
+
+// Who acts on the tracker and the wind follows the mission: nothing is blocked on the ground. A
+// wind over its limit is told also while a wave-off is flown.
 TEST(DescentLimits, CoherenceAndWindAreGuardedThenWatchedThenTold) {
   DescentFigures f;
   f.tracked = true;
@@ -285,7 +303,9 @@ TEST(DescentLimits, CoherenceAndWindAreGuardedThenWatchedThenTold) {
     f.state = state;
     const std::vector<LimitRow> limits = LimitsOfDescent(f);
     EXPECT_EQ(FindLimit(limits, LimitId::kCoherence)->enforced_by, by) << MissionStateName(state);
-    EXPECT_EQ(FindLimit(limits, LimitId::kWind)->enforced_by, by) << MissionStateName(state);
+    EXPECT_EQ(FindLimit(limits, LimitId::kWind)->enforced_by,
+              state == MissionState::kAborting ? EnforcedBy::kAlarm : by)
+        << MissionStateName(state);
   }
 }
 

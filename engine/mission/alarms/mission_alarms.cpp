@@ -10,6 +10,11 @@ namespace {
 
 using Facts = AlarmFacts;
 
+/// An approval is flown: waved off, nothing of it is left to be watched.
+bool DescendsOrHolds(const Facts& f) {
+  return !f.approve_ahead && f.state != MissionState::kAborting;
+}
+
 const AlarmRow kRows[] = {
     {.id = AlarmId::kNoSite,
      .level = AlarmLevel::kAdvisory,
@@ -185,12 +190,12 @@ const AlarmRow kRows[] = {
          [](const Facts& f, const std::string& limit) {
            return WithNumbers("Wind %.1f m/s, limit ", ShownBeyond(f.wind_mps, f.max_wind_mps, 1)) +
                   limit +
-                  (f.approve_ahead ? ". No site is approved in it: wait for less."
-                                   : ". Watch the descent, hold or wave off.");
+                  (DescendsOrHolds(f) ? ". Watch the descent, hold or wave off."
+                                      : ". No site is approved in it: wait for less.");
          },
      .grave =
          [](const Facts& f) {
-           return !f.approve_ahead && f.wind_mps > DescentLimits::grave_share * f.max_wind_mps;
+           return DescendsOrHolds(f) && f.wind_mps > DescentLimits::grave_share * f.max_wind_mps;
          }},
     {.id = AlarmId::kTailwind,
      .level = AlarmLevel::kCaution,

@@ -34,6 +34,11 @@ float PictureView::PixelsPerMetre(const Eigen::Vector3d& p_W) const {
   return depth_m > 1e-3 ? static_cast<float>(camera.fx_px / depth_m) * ScalePx() : 0.0f;
 }
 
+float PictureView::ScaleOfPicture(const Eigen::Vector3d& p_W) const {
+  const std::optional<ImVec2> at = ScreenFromPoint(p_W);
+  return at && rect.Contains(*at) ? PixelsPerMetre(p_W) : 0.0f;
+}
+
 std::vector<ImVec2> ProjectCircle(const PictureView& view, const LandingSite& site,
                                   double radius_m) {
   Eigen::Vector3d along = site.normal_W.cross(Eigen::Vector3d::UnitX());

@@ -24,6 +24,8 @@ struct PictureView {
   std::optional<ImVec2> ScreenFromPoint(const Eigen::Vector3d& p_W) const;
   /// Screen pixels per metre at a point; 0 behind the camera.
   float PixelsPerMetre(const Eigen::Vector3d& p_W) const;
+  /// The same for a scale bar; 0 beside the picture, too: the scale there is that of nothing in it.
+  float ScaleOfPicture(const Eigen::Vector3d& p_W) const;
 };
 
 /// Circle of `radius_m` about a site, on the plane of its ground, projected to the screen.

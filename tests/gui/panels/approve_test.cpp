@@ -57,6 +57,28 @@ TEST(FlyApprove, NeverFiresWhenBlockedUnarmedPreviewingOrInReplay) {
   }
 }
 
+// A selection that ends by itself puts the turns where the look stood: a press on its way to the
+// look turns nothing.
+TEST(FlyApprove, WhatComesUpUnderThePointerTakesNoPressAtOnce) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  snap.flight.Edit().mission.look_from_m = 12;
+  const EngineSnapshot ended = fake::Snapshot(MissionState::kProposed);
+  const ImVec2 turn = FlyWindow(1920, 1080, ended).ui.items.Find("turn_left")->rect.centre();
+  FlyWindow window(1920, 1080, snap);
+  window.ui.MoveTo(turn);
+  window.ui.Frame(window.draw);
+  window.snap = ended;
+  window.ui.Frame(window.draw);
+  ASSERT_NE(window.ui.items.Find("turn_left"), nullptr);
+  EXPECT_FALSE(window.ui.items.Find("turn_left")->enabled);
+  window.ui.Click("turn_left", window.draw);
+  EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 0);
+  window.Run(1.1);
+  EXPECT_TRUE(window.ui.items.Find("turn_left")->enabled);
+  window.ui.Click("turn_left", window.draw);
+  EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 1);
+}
+
 TEST(FlyApprove, OnePressLooksFromWhereTheSiteWouldBeSure) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
   EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("look"), nullptr);
@@ -167,6 +189,20 @@ TEST(FlyApprove, RefuseNamesTheNextSiteThatIsNotRefused) {
   snap.flight.Edit().mission.refused_sites = {2};
   FlyWindow window(1920, 1080, snap);
   EXPECT_TRUE(HasText(window.ui.items, "then site C"));
+}
+
+// It stays to be looked at again, below what is offered, and whoever approves it is told.
+TEST(FlyApprove, ARefusedSiteComesLastAndIsToldWhenItIsSelected) {
+  for (const auto& [w, h] : {std::pair{1920, 1080}, {1280, 720}}) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);  // A is armed
+    FlyWindow offered(w, h, snap);
+    EXPECT_TRUE(HasText(offered.ui.items, "the vehicle to land on site A."));
+    snap.flight.Edit().mission.refused_sites = {1};
+    FlyWindow window(w, h, snap);
+    EXPECT_TRUE(HasText(window.ui.items, "to land on A, which you refused."));
+    EXPECT_GT(window.ui.items.Find("site/A")->rect.y, window.ui.items.Find("site/B")->rect.y);
+    ExpectTextsInPanels(window.ui.items);
+  }
 }
 
 TEST(FlyApprove, SaysWhereASiteIsApprovedThatAMapCalledItUnsafe) {
