@@ -200,7 +200,9 @@ Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
         std::sqrt(kPointsACell * extent.x() * extent.y() / double(points.size()));
     if (spacing_m > slad.grid.cell_m) {
       warnings.push_back(
-          WithNumbers("cell enlarged to %.3g m: the points are that sparse", spacing_m));
+          WithNumbers("cell of %.3g m enlarged to %.3g m, for %.0f points a cell: of fewer, were "
+                      "they scattered at random, too many cells would have none",
+                      slad.grid.cell_m, spacing_m, kPointsACell));
       slad.grid.cell_m = spacing_m;
     }
   }

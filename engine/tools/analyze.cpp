@@ -95,6 +95,13 @@ Status Analyze(const Options& options) {
   if (const Status room = RoomToDecide(grid, settings->slad.mode, "ask for larger cells"); !room) {
     return room;
   }
+  for (const std::string& text : options.explain) {
+    if (!grid.Contains(*ParseCell(text))) {  // its form was checked with the options
+      return UsageError("--explain " + text +
+                        WithNumbers(": the map has rows 0 to %.0f and columns 0 to %.0f",
+                                    grid.rows - 1, grid.cols - 1));
+    }
+  }
   progress.Begin(WithNumbers("judging %.0f x %.0f cells (2 of 3)", grid.cols, grid.rows));
   AnalyzeOutcome o{{}, options.settings_file, std::move(input).value(), *settings};
   for (const std::string* file : {&options.left, &options.right, &options.rig, &options.poses,

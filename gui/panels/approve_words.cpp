@@ -136,12 +136,16 @@ HoldButtonView ApproveButton(const EngineSnapshot& snap, const ApproveState& sta
   return view;
 }
 
-std::string SideWords(const MissionStatus& m) {
+std::string SideOnlyWords(const MissionStatus& m) {
   return m.approach && m.approach->turned()
              ? std::string(", from the ") +
-                   DirectionWord(m.approach->heading_rad + std::numbers::pi) +
-                   (m.approach->why.empty() ? "" : ", " + m.approach->why)
+                   DirectionWord(m.approach->heading_rad + std::numbers::pi)
              : std::string();
+}
+
+std::string SideWords(const MissionStatus& m) {
+  const std::string side = SideOnlyWords(m);
+  return side.empty() || m.approach->why.empty() ? side : side + ", " + m.approach->why;
 }
 
 namespace {

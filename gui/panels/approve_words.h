@@ -15,6 +15,8 @@ std::string WhyNotApprove(const EngineSnapshot& snap, double silent_s);
 HoldButtonView ApproveButton(const EngineSnapshot& snap, const ApproveState& state,
                              double ui_time_s, double silent_s);
 /// ", from the north-east" where the approach goes round to there; empty where it is straight.
+std::string SideOnlyWords(const MissionStatus& mission);
+/// The same, with the reason where there is one: ", from the north-east, wind and sun".
 std::string SideWords(const MissionStatus& mission);
 /// What an approval leads to, in sentences: distance and height, time, heading; before that what
 /// speaks against the armed site. `narrow`: half of it.

@@ -38,12 +38,14 @@ std::string WaveOffHeadline(const WaveOffReport& report, double silent_s) {
   }
 }
 
-/// `heard_s`: since the vehicle was heard, whose deed a hold is.
-std::string Headline(const MissionStatus& m, double silent_s, double heard_s) {
+/// `heard_s`: since the vehicle was heard, whose deed a hold is. `brief`: without why the approach
+/// comes from another side.
+std::string Headline(const MissionStatus& m, double silent_s, double heard_s, bool brief) {
   const std::string site = m.armed ? std::string("site ") + m.armed->letter : std::string("a site");
   switch (m.state) {
     case MissionState::kApproved:
-      return (m.IsLook() ? "Approved: look at " : "Approved: ") + site + SideWords(m);
+      return (m.IsLook() ? "Approved: look at " : "Approved: ") + site +
+             (brief ? SideOnlyWords(m) : SideWords(m));
     case MissionState::kHold:
       return Heard("Holding on the way to " + site, heard_s);
     case MissionState::kAborting:
@@ -245,8 +247,12 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
                      Align::kRight) +
             s.Px(12);
   }
-  const std::string headline =
-      Headline(m, ui.silent_s, ArrivalOf(snap, ChannelId::kVehiclePose, ui.silent_s).age_s);
+  const double heard_s = ArrivalOf(snap, ChannelId::kVehiclePose, ui.silent_s).age_s;
+  std::string headline = Headline(m, ui.silent_s, heard_s, false);
+  if (TextWidth(s.medium, headline) > room) {
+    // Cut at a clause, "from the south…" might be the south-west.
+    headline = Headline(m, ui.silent_s, heard_s, true);
+  }
   ImFont* font = TextWidth(s.readout, headline) <= room   ? s.readout
                  : TextWidth(s.section, headline) <= room ? s.section
                                                           : s.medium;

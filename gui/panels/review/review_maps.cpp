@@ -1,5 +1,6 @@
 // Maps of Review: recorded, re-decided, and what became of each safe cell.
 #include <cmath>
+#include <span>
 
 #include "gui/panels/review/review.h"
 #include "gui/render/map_colours.h"
@@ -57,39 +58,42 @@ void DrawReviewMap(UiFrame& ui, const EngineSnapshot& snap, const Rect& rect, co
 constexpr float kHatchWidth = 1.3f, kHatchApart = 6;
 constexpr ImU32 kHatchInk = WithAlpha(picture::kBlack, 0.6f);
 
-/// In the lower left corner of the square, in a row where it has the room.
+/// In the lower left corner of the square, in a row; where it has no room for three, what is kept
+/// needs no word.
 void DrawDifferenceLegend(UiFrame& ui, const Rect& square) {
   const Style& s = ui.style;
-  const struct {
+  struct Entry {
     const char* words;
     Rgba8 colour;
     bool hatched;
-  } entries[] = {{"Kept safe", kKeptSafe, false},
-                 {"Lost", kLostSafe, true},
-                 {"Gained", kGainedSafe, true}};
-  const float side = s.Px(12), margin = s.Px(6), line = s.Px(18);
-  float sum = margin, widest = 0;
-  for (const auto& entry : entries) {
-    const float width = side + s.Px(6) + TextWidth(s.caption, entry.words) + margin;
-    sum += width + margin;
-    widest = std::max(widest, width);
+  };
+  constexpr Entry kAll[] = {
+      {"Lost", kLostSafe, true}, {"Gained", kGainedSafe, true}, {"Kept safe", kKeptSafe, false}};
+  std::span<const Entry> entries = kAll;
+  const float side = s.Px(12), margin = s.Px(6), height = s.Px(22);
+  const auto width = [&] {
+    float sum = margin;
+    for (const Entry& entry : entries) {
+      sum += side + TextWidth(s.caption, entry.words) + 3 * margin;
+    }
+    return sum;
+  };
+  if (width() + 2 * margin > square.w) {
+    entries = entries.first(2);
   }
-  const bool in_row = sum + 2 * margin <= square.w;
-  const ImVec2 size = in_row ? ImVec2(sum, line + margin)
-                             : ImVec2(widest + margin, std::size(entries) * line + margin);
-  const Rect plate{square.x + margin, square.bottom() - margin - size.y, size.x, size.y};
+  const Rect plate{square.x + margin, square.bottom() - margin - height, width(), height};
   FillRect(Canvas(), plate, picture::kPlate, s.Fine(3));
   ui.items.Add("legend/difference", plate, true, "");
-  ImVec2 at{plate.x + margin, plate.y + margin / 2 + line / 2};
-  for (const auto& entry : entries) {
-    const Rect swatch{at.x, at.y - side / 2, side, side};
+  float x = plate.x + margin;
+  const float y = plate.centre().y;
+  for (const Entry& entry : entries) {
+    const Rect swatch{x, y - side / 2, side, side};
     FillRect(Canvas(), swatch, IM_COL32(entry.colour.r, entry.colour.g, entry.colour.b, 255));
     if (entry.hatched) {
       Hatch(Canvas(), swatch, kHatchInk, s.Fine(kHatchWidth), s.Px(kHatchApart));
     }
-    const float x = swatch.right() + margin;
-    const float width = DrawText(ui, s.caption, picture::kPlateText, x, at.y, entry.words);
-    at = in_row ? ImVec2{x + width + 2 * margin, at.y} : ImVec2{at.x, at.y + line};
+    x = swatch.right() + margin;
+    x += DrawText(ui, s.caption, picture::kPlateText, x, y, entry.words) + 2 * margin;
   }
 }
 
@@ -125,10 +129,10 @@ void DrawDifference(const EngineSnapshot& snap, const Grid<std::uint8_t>& change
   none.probe = ProbeCell(probe, now->hazards->geometry);
   const MapAnswer answer = DrawMapPicture(ui, area, view, none);
   const Rect& square = answer.square;
-  DrawCellHatch(Canvas(), square,
-                {changed.cols(), changed.rows(), 0, kHatchInk, s.Fine(kHatchWidth),
-                 s.Px(kHatchApart)},
-                [&](int row, int col) { return changed.at(row, col) != 0; });
+  DrawCellHatch(
+      Canvas(), square,
+      {changed.cols(), changed.rows(), 0, kHatchInk, s.Fine(kHatchWidth), s.Px(kHatchApart)},
+      [&](int row, int col) { return changed.at(row, col) != 0; });
   if (const LandingSite* best = BestSite(snap, now)) {
     const GridGeometry& g = now->hazards->geometry;
     const float per_m = square.w / static_cast<float>(g.cols * g.cell_m);

@@ -3,8 +3,10 @@
 #include "gui/panels/approve_words.h"
 
 #include <functional>
+#include <utility>
 
 #include "engine/model/site_standing.h"
+#include "tests/gui/panels/fly_window.h"
 #include "tests/support/fake_snapshot.h"
 
 namespace palace {
@@ -178,6 +180,26 @@ TEST(ApproveWords, AnApprovalLeadsToADescentUnlessSomethingSpeaksAgainstTheSite)
   snap.flight.Edit().mission.approach->side = 3;
   const std::string line = ApprovalConsequence(snap, true);
   EXPECT_EQ(line.find("Called unsafe 28 s ago, from the "), 0u) << line;
+}
+
+// Cut at a clause, "from the south…" might be any of three sides.
+TEST(LandingWords, TheSideOfTheApproachIsWholeOrNotThere) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kApproved);
+  snap.flight.Edit().mission.approach = ApproachPlan{};
+  snap.flight.Edit().mission.approach->side = 3;
+  snap.flight.Edit().mission.approach->heading_rad = 0;
+  snap.flight.Edit().mission.approach->why = "the straight way is blocked by a thin structure";
+  for (const auto& [w, h] : {std::pair{1280, 720}, {1920, 1080}}) {
+    FlyWindow window(w, h, snap);
+    bool told = false;
+    for (const Item& item : window.ui.items.items()) {
+      const bool headline = item.name == "text" && item.text.rfind("Approved: site A", 0) == 0;
+      told = told || headline;
+      EXPECT_TRUE(!headline || item.text.find("…") == std::string::npos) << item.text;
+      EXPECT_TRUE(!headline || item.text.find("from the south") != std::string::npos);
+    }
+    EXPECT_TRUE(told);
+  }
 }
 
 TEST(ApproveWords, WithoutASelectionItSaysWhatToDo) {
