@@ -3,6 +3,7 @@
 // jpeglib.h asks for FILE and leaves it to others.
 // clang-format off
 #include <csetjmp>
+#include <cstdint>
 #include <cstdio>
 #include <jpeglib.h>
 #include <jerror.h>
@@ -10,6 +11,9 @@
 
 namespace palace {
 namespace {
+
+/// OpenCV reads no larger picture, so nobody has to wait here for a small file that claims one.
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 30;
 
 /// What libjpeg reports to. `base` comes first: it hands back a pointer to it.
 struct Reports {
@@ -48,6 +52,10 @@ std::string DamageInJpeg(std::string_view bytes) {
     jpeg_mem_src(&decoder, reinterpret_cast<const unsigned char*>(bytes.data()),
                  static_cast<unsigned long>(bytes.size()));
     jpeg_read_header(&decoder, TRUE);
+    if (std::uint64_t{decoder.image_width} * decoder.image_height > kMostPixels) {
+      jpeg_destroy_decompress(&decoder);
+      return {};
+    }
     decoder.dct_method = JDCT_FASTEST;  // the samples are not looked at
     decoder.do_fancy_upsampling = FALSE;
     jpeg_start_decompress(&decoder);

@@ -98,13 +98,13 @@ void FeedShortTaps(const std::vector<KeyEvent>& events, std::vector<ImGuiKey>& h
 
 void FeedPointer(const std::vector<PointerEvent>& events, PointerQueue& queue) {
   queue.Add(events);
-  const std::optional<PointerState> pointer = queue.Take();
+  const std::optional<PointerEvent> pointer = queue.Take();
 #if IMGUI_VERSION_NUM < 18900
   if (pointer) {
-    FeedMousePosition(pointer->at);
-    for (int button = 0; button < kPointerButtons; ++button) {
-      FeedMouseButton(button, pointer->down[static_cast<std::size_t>(button)]);
-    }
+    FeedMousePosition({pointer->x, pointer->y});
+  }
+  if (pointer && pointer->button >= 0) {
+    FeedMouseButton(pointer->button, pointer->down);
   }
 #else
   static_cast<void>(pointer);

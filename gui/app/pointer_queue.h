@@ -1,21 +1,12 @@
 // Presses and releases of the mouse, each told where it happened.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
-
-#include <imgui.h>
 
 #include "gui/platform/window.h"
 
 namespace palace {
-
-/// What a frame sees of the pointer.
-struct PointerState {
-  ImVec2 at;
-  std::array<bool, kPointerButtons> down{};
-};
 
 /// A frame that takes long sees several events at once. Read as a state, a press would count where
 /// the pointer has gone to since, on another button, or be lost with its release. So a frame sees
@@ -25,12 +16,12 @@ class PointerQueue {
  public:
   void Add(const std::vector<PointerEvent>& events);
   bool waiting() const { return !events_.empty(); }
-  /// Of the next frame; nothing when no event waits.
-  std::optional<PointerState> Take();
+  /// Of the next frame: the first change of a button that waits, else where the pointer moved to
+  /// last; nothing when no event waits.
+  std::optional<PointerEvent> Take();
 
  private:
   std::vector<PointerEvent> events_;
-  std::array<bool, kPointerButtons> down_{};
 };
 
 }  // namespace palace

@@ -34,6 +34,7 @@ std::size_t SamplesFlown(const std::vector<HistorySample>& history) {
 struct Shown {
   Timestamp zero;
   std::size_t first, end;
+  std::size_t flown;  ///< SamplesFlown
 };
 
 Shown ShownOf(const EngineSnapshot& snap) {
@@ -49,18 +50,26 @@ Shown ShownOf(const EngineSnapshot& snap) {
     return static_cast<std::size_t>(at - history.begin());
   };
   return {zero, from(landed ? -kPastLanded_s : -kPast_s),
-          landed ? from(kFutureLanded_s) : history.size()};
+          landed ? from(kFutureLanded_s) : history.size(), flown};
 }
 
-PlotTrace SeriesOf(const EngineSnapshot& snap, Member member, ImU32 colour, float width,
+/// A snapshot, and what is plotted of it: found once a frame, for a long history is long to search.
+struct Charted {
+  const EngineSnapshot& snap;
+  const Shown shown;
+  explicit Charted(const EngineSnapshot& s) : snap(s), shown(ShownOf(s)) {}
+  const HistorySample& At(std::size_t i) const { return (*snap.flight->history)[i]; }
+};
+
+PlotTrace SeriesOf(const Charted& charted, Member member, ImU32 colour, float width,
                    PlotTrace::Stroke stroke = PlotTrace::Stroke::kSolid) {
   PlotTrace series;
   series.colour = colour;
   series.width = width;
   series.stroke = stroke;
-  const Shown shown = ShownOf(snap);
+  const Shown& shown = charted.shown;
   for (std::size_t i = shown.first; i < shown.end; ++i) {
-    const HistorySample& sample = (*snap.flight->history)[i];
+    const HistorySample& sample = charted.At(i);
     series.points.push_back({static_cast<float>(SecondsBetween(shown.zero, sample.time)),
                              static_cast<float>(sample.*member)});
   }
@@ -68,9 +77,9 @@ PlotTrace SeriesOf(const EngineSnapshot& snap, Member member, ImU32 colour, floa
 }
 
 /// The estimate in force, up to touchdown: thick.
-PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p) {
-  PlotTrace series = SeriesOf(snap, member, p.safe, 2.2f);
-  const std::size_t first = ShownOf(snap).first, flown = SamplesFlown(*snap.flight->history);
+PlotTrace Estimate(const Charted& charted, Member member, const Palette& p) {
+  PlotTrace series = SeriesOf(charted, member, p.safe, 2.2f);
+  const std::size_t first = charted.shown.first, flown = charted.shown.flown;
   series.points.resize(std::min(flown - std::min(first, flown), series.points.size()));
   series.dot_at_end = true;
   return series;
@@ -81,12 +90,10 @@ constexpr float kAnywhere = 1e5f;
 
 /// With a band of three sigma as it was at each instant.
 template <typename Sigma>
-PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p, Sigma sigma) {
-  PlotTrace series = Estimate(snap, member, p);
-  const std::vector<HistorySample>& history = *snap.flight->history;
-  const std::size_t first = ShownOf(snap).first;
+PlotTrace Estimate(const Charted& charted, Member member, const Palette& p, Sigma sigma) {
+  PlotTrace series = Estimate(charted, member, p);
   for (std::size_t i = 0; i < series.points.size(); ++i) {
-    const double half = 3 * sigma(history[first + i]);
+    const double half = 3 * sigma(charted.At(charted.shown.first + i));
     series.band.push_back(std::isfinite(half) ? static_cast<float>(half) : kAnywhere);
   }
   return series;
@@ -94,14 +101,12 @@ PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p, 
 
 /// Distances from one site say nothing of another: the lines begin where the one in question became
 /// so.
-void DropOtherSites(const EngineSnapshot& snap, PlotView& view) {
-  const Shown shown = ShownOf(snap);
-  const auto first = snap.flight->history->begin() + static_cast<std::ptrdiff_t>(shown.first);
-  const auto end = snap.flight->history->begin() + static_cast<std::ptrdiff_t>(shown.end);
-  auto from = end;
+void DropOtherSites(const Charted& charted, PlotView& view) {
+  const std::size_t first = charted.shown.first;
+  std::size_t from = charted.shown.end;
   std::optional<Eigen::Vector2d> site;
-  for (; from != first; --from) {
-    const Eigen::Vector2d at = (from - 1)->p_WS.head<2>();
+  for (; from > first; --from) {
+    const Eigen::Vector2d at = charted.At(from - 1).p_WS.head<2>();
     if (!at.allFinite()) {
       continue;  // the position is not known, and so far nothing is told of another site
     }
@@ -110,7 +115,7 @@ void DropOtherSites(const EngineSnapshot& snap, PlotView& view) {
       break;
     }
   }
-  const auto others = static_cast<std::size_t>(from - first);
+  const std::size_t others = from - std::min(first, from);
   for (PlotTrace& series : view.series) {
     for (std::size_t i = 0; i < std::min(others, series.points.size()); ++i) {
       series.points[i].y = NAN;
@@ -165,9 +170,9 @@ void HoldAll(PlotView& view, float step) {
 
 /// A series whose values are worked out from each sample.
 template <typename Get>
-PlotTrace Derived(const EngineSnapshot& snap, ImU32 colour, PlotTrace::Stroke stroke, Get get) {
-  PlotTrace series = SeriesOf(snap, &HistorySample::laser_m, colour, 1.5f, stroke);
-  const std::size_t first = ShownOf(snap).first;
+PlotTrace Derived(const Charted& charted, ImU32 colour, PlotTrace::Stroke stroke, Get get) {
+  PlotTrace series = SeriesOf(charted, &HistorySample::laser_m, colour, 1.5f, stroke);
+  const std::size_t first = charted.shown.first;
   for (std::size_t i = 0; i < series.points.size(); ++i) {
     series.points[i].y = static_cast<float>(get(first + i));
   }
@@ -177,10 +182,10 @@ PlotTrace Derived(const EngineSnapshot& snap, ImU32 colour, PlotTrace::Stroke st
 using PositionMember = Eigen::Vector3d HistorySample::*;
 
 /// Descent rate along a track: its change over the half second around each sample.
-PlotTrace RateOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
+PlotTrace RateOf(const Charted& charted, PositionMember track, ImU32 colour,
                  PlotTrace::Stroke stroke) {
-  const std::vector<HistorySample>& h = *snap.flight->history;
-  return Derived(snap, colour, stroke, [&h, track](std::size_t i) {
+  const std::vector<HistorySample>& h = *charted.snap.flight->history;
+  return Derived(charted, colour, stroke, [&h, track](std::size_t i) {
     const HistorySample& before = h[i >= 3 ? i - 3 : 0];
     const HistorySample& after = h[std::min(i + 2, h.size() - 1)];
     const double dt_s = SecondsBetween(before.time, after.time);
@@ -219,15 +224,16 @@ std::vector<PlotLimit> LimitLine(const EngineSnapshot& snap, LimitId id) {
            (enforced ? "Limit " : "For information: ") + LimitWords(*row)}};
 }
 
-PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+PlotView HeightPlot(const Charted& charted, const Palette& p, const HistorySample& now) {
+  const EngineSnapshot& snap = charted.snap;
   using Stroke = PlotTrace::Stroke;
   PlotView view = Base(snap, "height", "Height above site", "m");
-  view.series = {Estimate(snap, &HistorySample::height_above_site_m, p,
+  view.series = {Estimate(charted, &HistorySample::height_above_site_m, p,
                           [](const HistorySample& h) { return h.estimate_sigma_m.z(); }),
-                 SeriesOf(snap, &HistorySample::truth_height_m, p.truth, 1.5f, Stroke::kDotted),
-                 SeriesOf(snap, &HistorySample::laser_m, p.laser, 1.5f),
-                 SeriesOf(snap, &HistorySample::gps_height_m, p.gps, 1.5f),
-                 SeriesOf(snap, &HistorySample::plan_height_m, p.text2, 1.5f, Stroke::kDashed)};
+                 SeriesOf(charted, &HistorySample::truth_height_m, p.truth, 1.5f, Stroke::kDotted),
+                 SeriesOf(charted, &HistorySample::laser_m, p.laser, 1.5f),
+                 SeriesOf(charted, &HistorySample::gps_height_m, p.gps, 1.5f),
+                 SeriesOf(charted, &HistorySample::plan_height_m, p.text2, 1.5f, Stroke::kDashed)};
   if (!snap.flight->mission.path.ahead.empty()) {
     view.series.push_back(PlanAhead(snap, p));
   }
@@ -239,33 +245,34 @@ PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistoryS
 }
 
 /// When, against now, the distance from the centre was last put under its limit; 0: never.
-float CentreLimitedSince(const EngineSnapshot& snap) {
+float CentreLimitedSince(const Charted& charted) {
   float since = 0;
   bool found = false;
-  const std::vector<HistorySample>& history = *snap.flight->history;
+  const std::vector<HistorySample>& history = *charted.snap.flight->history;
   for (auto it = history.rbegin(); it != history.rend() && (it->centre_limited || !found); ++it) {
     if (it->centre_limited) {
       found = true;
-      since = static_cast<float>(SecondsBetween(ShownOf(snap).zero, it->time));
+      since = static_cast<float>(SecondsBetween(charted.shown.zero, it->time));
     }
   }
   return since;
 }
 
-PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+PlotView DistancePlot(const Charted& charted, const Palette& p, const HistorySample& now) {
+  const EngineSnapshot& snap = charted.snap;
   using Stroke = PlotTrace::Stroke;
   PlotView view = Base(snap, "distance", "Distance from site centre", "m");
   const double band = 3 * snap.flight->navigation.InForce().estimate.sigma_p_m.head<2>().norm();
   view.series = {
-      Estimate(snap, &HistorySample::from_site_m, p,
+      Estimate(charted, &HistorySample::from_site_m, p,
                [](const HistorySample& h) { return h.estimate_sigma_m.head<2>().norm(); }),
-      SeriesOf(snap, &HistorySample::from_site_truth_m, p.truth, 1.5f, Stroke::kDotted),
-      SeriesOf(snap, &HistorySample::from_site_gps_m, p.gps, 1.5f)};
+      SeriesOf(charted, &HistorySample::from_site_truth_m, p.truth, 1.5f, Stroke::kDotted),
+      SeriesOf(charted, &HistorySample::from_site_gps_m, p.gps, 1.5f)};
   view.limits = LimitLine(snap, LimitId::kFromCentre);
   for (PlotLimit& limit : view.limits) {
-    limit.from_x = CentreLimitedSince(snap);
+    limit.from_x = CentreLimitedSince(charted);
   }
-  DropOtherSites(snap, view);
+  DropOtherSites(charted, view);
   const float top = Largest(view.series, view.limits.empty() ? 1 : 2 * view.limits.front().value);
   view.y_max = RoundUp(top * 1.05f, top > 8 ? 5 : (top > 3 ? 1 : 0.5f));
   // A band below what is shown is none that anybody knows.
@@ -275,13 +282,14 @@ PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const Histor
   return view;
 }
 
-PlotView RatePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+PlotView RatePlot(const Charted& charted, const Palette& p, const HistorySample& now) {
+  const EngineSnapshot& snap = charted.snap;
   using Stroke = PlotTrace::Stroke;
   PlotView view = Base(snap, "rate", "Descent rate", "m/s");
-  view.series = {Estimate(snap, &HistorySample::descent_rate_mps, p,
+  view.series = {Estimate(charted, &HistorySample::descent_rate_mps, p,
                           [](const HistorySample& h) { return h.descent_rate_sigma_mps; }),
-                 RateOf(snap, &HistorySample::truth_p_WB, p.truth, Stroke::kDotted),
-                 RateOf(snap, &HistorySample::gps_p_WB, p.gps, Stroke::kSolid)};
+                 RateOf(charted, &HistorySample::truth_p_WB, p.truth, Stroke::kDotted),
+                 RateOf(charted, &HistorySample::gps_p_WB, p.gps, Stroke::kSolid)};
   view.y_min = -0.25f;
   view.limits = LimitLine(snap, LimitId::kDescentRate);
   view.y_max = RoundUp(1.2f * (view.limits.empty() ? 1.5f : view.limits.front().value), 0.5f);
@@ -290,9 +298,10 @@ PlotView RatePlot(const EngineSnapshot& snap, const Palette& p, const HistorySam
   return view;
 }
 
-PlotView CoherencePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+PlotView CoherencePlot(const Charted& charted, const Palette& p, const HistorySample& now) {
+  const EngineSnapshot& snap = charted.snap;
   PlotView view = Base(snap, "coherence", "Tracker coherence", "0 to 1");
-  view.series = {Estimate(snap, &HistorySample::coherence, p)};
+  view.series = {Estimate(charted, &HistorySample::coherence, p)};
   view.y_min = 0.4f;
   view.y_max = 1.0f;
   HoldAll(view, 0.2f);
@@ -301,9 +310,10 @@ PlotView CoherencePlot(const EngineSnapshot& snap, const Palette& p, const Histo
   return view;
 }
 
-PlotView ResidualPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+PlotView ResidualPlot(const Charted& charted, const Palette& p, const HistorySample& now) {
+  const EngineSnapshot& snap = charted.snap;
   PlotView view = Base(snap, "residual", "Vision residual", "σ");
-  view.series = {Estimate(snap, &HistorySample::residual_sigma, p)};
+  view.series = {Estimate(charted, &HistorySample::residual_sigma, p)};
   view.y_min = 0;
   view.y_max = 4;
   HoldAll(view, 2);
@@ -312,9 +322,10 @@ PlotView ResidualPlot(const EngineSnapshot& snap, const Palette& p, const Histor
   return view;
 }
 
-PlotView PathPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+PlotView PathPlot(const Charted& charted, const Palette& p, const HistorySample& now) {
+  const EngineSnapshot& snap = charted.snap;
   PlotView view = Base(snap, "path", "Off the planned path", "m");
-  view.series = {Estimate(snap, &HistorySample::glide_deviation_m, p,
+  view.series = {Estimate(charted, &HistorySample::glide_deviation_m, p,
                           [](const HistorySample& h) { return h.estimate_sigma_m.norm(); })};
   view.y_max = 1.6f;
   HoldAll(view, 0.4f);
@@ -396,9 +407,10 @@ void DrawPlotTabs(const EngineSnapshot& snap, const Rect& rect, PlotTab& tab, Ui
 
 std::array<PlotView, 6> DescentPlots(const EngineSnapshot& snap, const Palette& p) {
   const HistorySample& now = snap.flight->history->back();
-  std::array plots = {HeightPlot(snap, p, now),   DistancePlot(snap, p, now),
-                      RatePlot(snap, p, now),     CoherencePlot(snap, p, now),
-                      ResidualPlot(snap, p, now), PathPlot(snap, p, now)};
+  const Charted charted(snap);
+  std::array plots = {HeightPlot(charted, p, now),   DistancePlot(charted, p, now),
+                      RatePlot(charted, p, now),     CoherencePlot(charted, p, now),
+                      ResidualPlot(charted, p, now), PathPlot(charted, p, now)};
   if (HasLanded(snap)) {
     for (PlotView& plot : plots) {  // what drifts on after the touchdown is no figure of it
       plot.current = "landed";

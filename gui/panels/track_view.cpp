@@ -13,6 +13,7 @@
 #include "gui/widgets/map/camera_overlay.h"
 #include "gui/widgets/map/site_marks.h"
 #include "gui/widgets/number_text.h"
+#include "gui/widgets/overlap.h"
 
 namespace palace {
 namespace {
@@ -196,9 +197,7 @@ bool HidesWords(const ItemRecord& items, const Rect& plate, float around) {
 
 bool HidesMarks(const ItemRecord& items, const Rect& plate) {
   return std::any_of(items.items().begin(), items.items().end(), [&](const Item& item) {
-    const Rect& r = item.rect;
-    return item.name == kTrackMark && r.x < plate.right() && plate.x < r.right() &&
-           r.y < plate.bottom() && plate.y < r.bottom();
+    return item.name == kTrackMark && Overlap(item.rect, plate);
   });
 }
 

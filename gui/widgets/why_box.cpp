@@ -7,6 +7,7 @@
 
 #include "gui/widgets/draw.h"
 #include "gui/widgets/number_text.h"
+#include "gui/widgets/overlap.h"
 
 namespace palace {
 namespace {
@@ -15,10 +16,6 @@ constexpr float kWidth = 316;
 constexpr float kPad = 12;
 constexpr float kRow = 22;
 constexpr float kLine = 18;
-
-bool Overlap(const Rect& a, const Rect& b) {
-  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
-}
 
 bool Holds(const Rect& outer, const Rect& inner) {
   return inner.x >= outer.x && inner.y >= outer.y && inner.right() <= outer.right() &&

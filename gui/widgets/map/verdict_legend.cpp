@@ -10,6 +10,7 @@
 #include "gui/widgets/draw.h"
 #include "gui/widgets/map/camera_overlay.h"
 #include "gui/widgets/map/flag_marks.h"
+#include "gui/widgets/overlap.h"
 
 namespace palace {
 namespace {
@@ -28,10 +29,6 @@ std::vector<Rect> InCorners(const Style& s, const Rect& image, ImVec2 size) {
           {right, image.y + s.Px(kEdge + 28), size.x, size.y}};
 }
 
-bool Touches(const Rect& a, const Rect& b) {
-  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
-}
-
 enum class Hidden { kLetters, kLettersAndRings };
 
 bool Hides(const UiFrame& ui, const Rect& plate, Hidden none_of) {
@@ -40,7 +37,7 @@ bool Hides(const UiFrame& ui, const Rect& plate, Hidden none_of) {
     const bool stays = item.name == kSiteMark || item.name == kTrackMark ||
                        item.name == kTrackLegend ||
                        item.name == kVerdictLegend || (ring && none_of == Hidden::kLettersAndRings);
-    return stays && Touches(item.rect, plate);
+    return stays && Overlap(item.rect, plate);
   });
 }
 

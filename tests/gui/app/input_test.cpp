@@ -43,15 +43,12 @@ TEST(Pointer, AClickWhosePointerLeftWithinAFrameIsOfTheButtonItWasOn) {
       leaves{150, 20};
   PointerQueue queue;
   queue.Add({arrives, press, release, leaves});
-  const struct {
-    float x;
-    bool down;
-  } frames[] = {{20, true}, {20, false}, {150, false}};
-  for (const auto& frame : frames) {
-    const std::optional<PointerState> seen = queue.Take();
+  for (const PointerEvent& expected : {press, release, leaves}) {
+    const std::optional<PointerEvent> seen = queue.Take();
     ASSERT_TRUE(seen.has_value());
-    EXPECT_FLOAT_EQ(seen->at.x, frame.x);
-    EXPECT_EQ(seen->down[0], frame.down);
+    EXPECT_FLOAT_EQ(seen->x, expected.x);
+    EXPECT_EQ(seen->button, expected.button);
+    EXPECT_EQ(seen->down, expected.down);
   }
   EXPECT_FALSE(queue.waiting());
   EXPECT_FALSE(queue.Take().has_value());
