@@ -26,6 +26,7 @@ void StartAnew(MissionTurn& turn, Timestamp now) {
   m.status.rechecks.clear();
   m.status.touchdown_miss_m.reset();
   m.status.touchdown_miss_true_m.reset();
+  m.status.touchdown_sink_mps.reset();
   Enter(turn, MissionState::kNoLive, words::kJumped, now);
 }
 
@@ -192,6 +193,9 @@ void RememberFacts(MissionMemory& m, const MissionInputs& in) {
   }
   if (in.terrain.new_map && in.terrain.decision != nullptr) {
     m.map_seen_at = in.session.now;
+  }
+  if (m.watch.vehicle() && !m.watch.vehicle()->on_ground) {
+    m.sink_mps = facts.v_WB.z();
   }
   const FilterStatus& vision = in.navigation.navigation.vision;
   if (vision.running && vision.estimate.healthy) {

@@ -222,6 +222,8 @@ void Land(MissionTurn& turn, const MissionInputs& in) {
   MissionMemory& m = turn.memory;
   m.status.touchdown_miss_m = TouchdownMiss(m);
   m.status.touchdown_miss_true_m = TrueTouchdownMiss(m, in);
+  m.status.touchdown_sink_mps =
+      std::isfinite(m.sink_mps) ? std::optional(m.sink_mps) : std::nullopt;
   m.repeating.reset();
   const std::string site = words::SiteName(m.status);
   Enter(turn, MissionState::kLanded,

@@ -139,7 +139,7 @@ std::string SelectionEnded(std::string_view site, std::string_view why) {
 }
 
 std::string DescentStopped(const MissionStatus& status, std::string_view why) {
-  return (status.IsLook() ? "Look at " : "Descent to ") + SiteName(status) +
+  return (status.IsLook() ? "Look at " : "Landing on ") + SiteName(status) +
          " stopped: " + std::string(why) + ".";
 }
 

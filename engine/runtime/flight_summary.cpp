@@ -61,6 +61,7 @@ void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
   }
   if (!flying && summary_.site && !summary_.estimated_miss_m) {
     summary_.estimated_miss_m = mission.touchdown_miss_m;
+    summary_.touchdown_sink_mps = mission.touchdown_sink_mps;
     summary_.nav_error_m = snapshot.session->settings.slad.lander.nav_error_m;
   }
   if (!flying && snapshot.sensors->truth && summary_.site && !summary_.touchdown_miss_m) {
@@ -96,6 +97,10 @@ std::vector<std::string> SummaryLines(const FlightSummary& s) {
     lines.push_back(WithNumbers(
         "Touchdown by the estimate: %.2f m from the approved site; %.2f m was allowed for",
         *s.estimated_miss_m, s.nav_error_m));
+  }
+  if (s.touchdown_sink_mps) {
+    lines.push_back(
+        WithNumbers("Touchdown sink rate by the estimate: %.2f m/s", *s.touchdown_sink_mps));
   }
   if (s.estimate_error_m.count > 0) {
     lines.push_back(

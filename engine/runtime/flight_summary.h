@@ -21,16 +21,17 @@ struct SeriesStats {
 struct FlightSummary {
   MissionState final_state = MissionState::kNoLive;
   double duration_s = 0;
-  std::optional<LandingSite> site;         ///< the one approved to be landed on
-  bool site_confirmed = false;             ///< when it was approved
-  Timestamp approved_at;                   ///< vehicle time
-  int looks = 0;                           ///< closer looks that ended in their hover
-  SeriesStats estimate_error_m;            ///< |estimate - truth| of B while vision was in force
-  SeriesStats gps_error_m;                 ///< the same of the GPS filter
-  SeriesStats approach_error_m;            ///< |estimate - truth| over the whole flight
-  std::optional<double> touchdown_miss_m;  ///< skid centre to site, true, horizontal
-  std::optional<double> estimated_miss_m;  ///< the same by the estimate in force
-  double nav_error_m = NAN;                ///< that was allowed for
+  std::optional<LandingSite> site;           ///< the one approved to be landed on
+  bool site_confirmed = false;               ///< when it was approved
+  Timestamp approved_at;                     ///< vehicle time
+  int looks = 0;                             ///< closer looks that ended in their hover
+  SeriesStats estimate_error_m;              ///< |estimate - truth| of B while vision was in force
+  SeriesStats gps_error_m;                   ///< the same of the GPS filter
+  SeriesStats approach_error_m;              ///< |estimate - truth| over the whole flight
+  std::optional<double> touchdown_miss_m;    ///< skid centre to site, true, horizontal
+  std::optional<double> estimated_miss_m;    ///< the same by the estimate in force
+  double nav_error_m = NAN;                  ///< that was allowed for
+  std::optional<double> touchdown_sink_mps;  ///< just before it, by the estimate
   std::optional<double> site_obstacle_distance_m;  ///< nearest true obstacle to the site
   double lander_radius_m = 0;
 };

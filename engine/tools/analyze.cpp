@@ -121,10 +121,14 @@ Status Analyze(const Options& options) {
     std::printf("cell %d,%d: %s\n", cell->row, cell->col, o.explained.back().verdict.c_str());
   }
   progress.Begin("writing (3 of 3)");
+  const bool replaces = std::filesystem::exists(std::filesystem::path(options.out) / "site.json");
   if (const Status done = PublishAnalysis(o, options.out); !done) {
     return done;
   }
   progress.End();
+  if (replaces) {
+    std::cerr << "palacectl: warning: an earlier analysis in " << options.out << " was replaced\n";
+  }
   for (const std::string& warning : o.input.warnings) {
     std::cerr << "palacectl: warning: " << warning << '\n';
   }

@@ -42,6 +42,13 @@ struct ShowWorldView {
 };
 /// Shows the trackers on the left picture of the workspace shown, or hides them.
 struct ToggleTrackView {};
+enum class LoopEdge : std::uint8_t { kIn, kOut };
+/// The stretch that Review plays again and again begins or ends there; seconds from the start.
+struct SetLoop {
+  LoopEdge edge = LoopEdge::kIn;
+  double at_s = 0;
+};
+struct ToggleLoop {};
 struct SetUiScale {
   double scale = 1;
 };
@@ -100,7 +107,7 @@ using UiAction =
     std::variant<ShowWorkspace, HighlightSite, ShowView3dPreset, ShowWorldView, MoveView3d,
                  SetUiScale, TakeScreenshot, UndoSetting, RedoSetting, ChoosePreset, LookAtPreset,
                  LoadPreset, SavePreset, ShowKeyHelp, CloseTop, QuitProgram, NextFlight,
-                 InjectFault, EndFault, ToggleTrackView>;
+                 InjectFault, EndFault, ToggleTrackView, SetLoop, ToggleLoop>;
 
 /// Everything a panel can ask for.
 using Intent = std::variant<CommandAction, PlaybackControl, SimulationChange, UiAction>;

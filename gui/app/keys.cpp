@@ -60,6 +60,13 @@ Intents PlayOrPause(const Context& c) {
                                                       : PlaybackControl::Kind::kPlay);
 }
 
+/// Of the loop of Review; elsewhere nothing.
+Intents OfLoop(const Context& c, std::function<UiAction(double at_s)> action) {
+  const bool may = c.snapshot && c.state.frame.workspace == Workspace::kReview &&
+                   c.snapshot->session->source.can_seek;
+  return may ? Ui(action(c.snapshot->session->source.position_s)) : Intents{};
+}
+
 /// As the button of that name, where it stands.
 Intents HoldThere(const Context& c) {
   if (!c.snapshot || !c.snapshot->session->can_transmit) {
@@ -143,6 +150,16 @@ std::vector<Row> MakeRows() {
       {{"[", "Half speed", true}, [](const Context& c) { return ScaleSpeed(c, 0.5); }},
       {{"]", "Double speed", true}, [](const Context& c) { return ScaleSpeed(c, 2); }},
       {{"\\", "Normal speed"}, play(K::kSpeed, 1)},
+      {{"I", "In Review: the loop begins here"},
+       [](const Context& c) {
+         return OfLoop(c, [](double at_s) { return SetLoop{LoopEdge::kIn, at_s}; });
+       }},
+      {{"O", "In Review: the loop ends here"},
+       [](const Context& c) {
+         return OfLoop(c, [](double at_s) { return SetLoop{LoopEdge::kOut, at_s}; });
+       }},
+      {{"L", "In Review: loop on or off"},
+       [](const Context& c) { return OfLoop(c, [](double) { return ToggleLoop{}; }); }},
       {{"D", "Deselect the site"},
        [](const Context& c) {
          const bool armed = c.snapshot && c.snapshot->flight->mission.state == MissionState::kArmed;

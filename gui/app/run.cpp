@@ -14,6 +14,7 @@
 #include "engine/core/log.h"
 #include "engine/core/time.h"
 #include "engine/runtime/flight_summary.h"
+#include "engine/runtime/limit_sweeper.h"
 #include "gui/app/app.h"
 #include "gui/app/dispatch.h"
 #include "gui/app/exit_code.h"
@@ -194,6 +195,9 @@ class StationRun {
         return sized;
       }
     }
+    if (snapshot && state_.frame.workspace == Workspace::kTune) {
+      Sweep(*snapshot, photograph);
+    }
     Intents intents = Draw(snapshot.get(), input, window_input, dt_s, photograph);
     const Status saved = photograph ? SaveScreenshots() : Ok();
     // On a graphics card the rest is waiting for the display.
@@ -209,6 +213,18 @@ class StationRun {
       OpenReport();
     }
     return saved;
+  }
+
+  /// Without a window nobody waits for a sweep but a picture, which shows that of its own map.
+  void Sweep(const EngineSnapshot& snapshot, bool photograph) {
+    const SettingInfo& limit = *FindSetting(state_.tune.swept.limit);
+    if (!surface_.lockstep()) {
+      sweeper_.Ask(snapshot, limit, ui_time_s_);
+      state_.tune.sweep = sweeper_.Latest();
+    } else if (const auto request = SweepOf(snapshot, limit); request && photograph) {
+      state_.tune.sweep =
+          std::make_shared<const LimitSweep>(SweepLimit(*request, [] { return true; }));
+    }
   }
 
   /// Injects and ends what was asked for, and lists what there is for the next frame.
@@ -318,6 +334,7 @@ class StationRun {
   std::optional<ScriptRunner> script_;
   FlightSummarizer summarizer_;
   RefusalWatch refusals_;
+  LimitSweeper sweeper_;
   ApprovalRecords approvals_;
   UiState state_;
   double start_s_;

@@ -147,6 +147,8 @@ struct Reducer {
       *shown = !*shown;
     }
   }
+  void operator()(const SetLoop& loop) { state.review.loop.Set(loop.edge, loop.at_s); }
+  void operator()(const ToggleLoop&) { state.review.loop.Toggle(); }
   void operator()(const ShowKeyHelp& help) { state.key_help = help.shown; }
   void operator()(const CloseTop&) { CloseTopmost(state); }
   void operator()(const QuitProgram&) { state.quit = true; }

@@ -27,9 +27,8 @@ void Follow(const std::vector<Alarm>& alarms, std::vector<ListedAlarm>& listed) 
     row.alarm.active = false;
   }
   for (const Alarm& alarm : alarms) {
-    const auto row = std::find_if(listed.begin(), listed.end(), [&](const ListedAlarm& old) {
-      return old.alarm.id == alarm.id;
-    });
+    const auto row = std::find_if(listed.begin(), listed.end(),
+                                  [&](const ListedAlarm& old) { return old.alarm.id == alarm.id; });
     if (row == listed.end()) {
       listed.push_back({alarm});
     } else {

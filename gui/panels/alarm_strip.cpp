@@ -144,9 +144,8 @@ float DrawAnswers(const std::vector<const Alarm*>& alarms, FrameState& state, co
 
 /// An advisory asks for no answer.
 bool AsksForAnswers(const std::vector<const Alarm*>& alarms) {
-  return std::any_of(alarms.begin(), alarms.end(), [](const Alarm* alarm) {
-    return alarm->level != AlarmLevel::kAdvisory;
-  });
+  return std::any_of(alarms.begin(), alarms.end(),
+                     [](const Alarm* alarm) { return alarm->level != AlarmLevel::kAdvisory; });
 }
 
 /// Where the sentence of an alarm begins, from the strip's left edge.

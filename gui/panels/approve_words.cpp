@@ -178,11 +178,12 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
     text += ", " + Fixed(m.height_above_site_m, 1) + " m down";
   }
   text += side;
+  const std::string heading =
+      m.approach ? ", heading " + HeadingText(m.approach->heading_rad) : std::string();
+  text += side.empty() ? heading : "";
   if (std::isfinite(m.time_to_touchdown_s)) {
-    text += (brief    ? ", down in "
-             : narrow ? ", touchdown in about "
-                      : ". Touchdown in about ") +
-            Fixed(m.time_to_touchdown_s, 0) + " s";
+    text +=
+        (narrow ? ", down in " : ". Touchdown in about ") + Fixed(m.time_to_touchdown_s, 0) + " s";
   }
   const double shaken_s = ShakenFor_s(snap);
   const SladSettings& limits = snap.session->settings.slad;
@@ -205,8 +206,8 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
     return (narrow ? AsSentence(why) : text + ". " + doubt) + thin;
   }
   if (!narrow && m.approach) {
-    text += ", heading " + HeadingText(m.approach->heading_rad) + " at " +
-            Fixed(m.approach->descent_rate_mps, 1) + " m/s";
+    text +=
+        (side.empty() ? "" : heading) + " at " + Fixed(m.approach->descent_rate_mps, 1) + " m/s";
   }
   return text + "." + thin;
 }

@@ -221,7 +221,10 @@ std::vector<PlotLimit> LimitLine(const EngineSnapshot& snap, LimitId id) {
            !enforced       ? Kind::kInformation
            : row->is_least ? Kind::kLeast
                            : Kind::kMost,
-           (enforced ? "Limit " : "For information: ") + LimitWords(*row)}};
+           (enforced          ? "Limit "
+            : HasLanded(snap) ? "Limit until touchdown: "
+                              : "For information: ") +
+               LimitWords(*row)}};
 }
 
 PlotView HeightPlot(const Charted& charted, const Palette& p, const HistorySample& now) {

@@ -20,8 +20,10 @@ std::string Touchdown(const MissionStatus& m, double nav_error_m) {
   };
   add(m.touchdown_miss_m, "off centre by estimate");
   add(m.touchdown_miss_true_m, m.touchdown_miss_m ? "in truth" : "off centre in truth");
-  return text.empty() ? "Where it touched down is not known."
+  text = text.empty() ? "Where it touched down is not known."
                       : text + "; " + Fixed(nav_error_m, 2) + " m was allowed for.";
+  return text +
+         (m.touchdown_sink_mps ? " Sink rate " + Fixed(*m.touchdown_sink_mps, 2) + " m/s." : "");
 }
 
 /// The log's folder and file; the folder above them is the one that was asked for.

@@ -111,10 +111,11 @@ struct Told {
   Readout Wind() const {
     const double wind = snap.sensors->vehicle ? snap.sensors->vehicle->wind_speed_mps : NAN;
     const double from = snap.sensors->vehicle ? snap.sensors->vehicle->wind_from_rad : NAN;
-    return ByStatus("Wind", wind, 1,
-                    WindHasDirection(wind) && std::isfinite(from) && !narrow
-                        ? "m/s, " + HeadingText(from)
-                        : "m/s");
+    if (!WindHasDirection(wind) || !std::isfinite(from)) {
+      return ByStatus("Wind", wind, 1, "m/s");
+    }
+    return narrow ? ByStatus("Wind from", wind, 1, "m/s " + HeadingText(from))
+                  : ByStatus("Wind", wind, 1, "m/s from " + HeadingText(from));
   }
   /// Fuel or a battery: the vehicle does not say which.
   Readout Energy() const {
@@ -134,7 +135,9 @@ std::vector<Readout> LandedReadouts(const Told& told) {
                         m.touchdown_miss_m.value_or(NAN), 2, "m"),
           told.ByStatus(told.narrow ? "In truth" : "Off centre, in truth",
                         m.touchdown_miss_true_m.value_or(NAN), 2, "m"),
-          told.Wind(), told.Energy()};
+          told.Wind(), told.Energy(),
+          told.ByStatus(told.narrow ? "Sink rate" : "Sink rate, estimate",
+                        m.touchdown_sink_mps.value_or(NAN), 2, "m/s")};
 }
 
 Readout DescentHeight(const Told& told) {
@@ -230,9 +233,14 @@ std::vector<Readout> Readouts(const Told& told) {
 
 void DrawVehiclePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow, UiFrame& ui) {
   const Style& s = ui.style;
-  DrawPanelFrame(ui, rect, "Vehicle", {{ModeWords(snap)}});
   // Two columns where three would not hold the longest label.
   const bool folded = narrow || rect.w < s.Px(380);
+  const auto& pose = snap.sensors->pose;
+  const bool heads = folded && pose && !Told{snap, folded, ui.silent_s}.Coasts();
+  DrawPanelFrame(
+      ui, rect, "Vehicle",
+      {{ModeWords(snap)},
+       {heads ? "Hdg " + HeadingText(EulerFromRotation(pose->X_WB.R).yaw_rad) : std::string()}});
   const std::vector<Readout> readouts = Readouts({snap, folded, ui.silent_s});
   const int columns = folded ? 2 : 3;
   const float pad = s.Px(12);

@@ -41,9 +41,7 @@ bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::strin
     DrawText(ui, s.caption, enabled ? p.text2 : p.text3, rect.centre().x, middle + s.Px(11),
              FitClauses(s.caption, look.sub, rect.w - s.Px(6)), Align::kCentre);
   }
-  const std::string_view told = enabled         ? look.hint
-                                : !look.enabled ? look.reason
-                                                : ui.withheld;
+  const std::string_view told = enabled ? look.hint : !look.enabled ? look.reason : ui.withheld;
   if (in.hovered && !told.empty()) {
     DrawTooltip(ui, told, &rect);
   }

@@ -126,6 +126,18 @@ void DrawIn(const Pen& p, Icon icon) {
       p.Line(-0.25f, -0.5f, 0.3f, 0);
       p.Line(0.3f, 0, -0.25f, 0.5f);
       break;
+    case Icon::kChevronLeft:
+      p.Line(0.25f, -0.5f, -0.3f, 0);
+      p.Line(-0.3f, 0, 0.25f, 0.5f);
+      break;
+    case Icon::kLoop:
+      p.Line(-0.75f, 0.15f, -0.75f, -0.4f);
+      p.Line(-0.75f, -0.4f, 0.4f, -0.4f);
+      p.Triangle(0.35f, -0.75f, 0.8f, -0.4f, 0.35f, -0.05f);
+      p.Line(0.75f, -0.15f, 0.75f, 0.4f);
+      p.Line(0.75f, 0.4f, -0.4f, 0.4f);
+      p.Triangle(-0.35f, 0.05f, -0.8f, 0.4f, -0.35f, 0.75f);
+      break;
     case Icon::kScreen:
       p.Frame(-0.8f, -0.6f, 0.8f, 0.4f);
       p.Line(-0.35f, 0.75f, 0.35f, 0.75f);

@@ -28,6 +28,8 @@ enum class Icon {
   kReset,
   kChevronDown,
   kChevronRight,
+  kChevronLeft,
+  kLoop,
   kScreen,
   kArrowRight,
   kReplay,

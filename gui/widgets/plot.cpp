@@ -54,22 +54,25 @@ std::string ClockLabel(float seconds) {
 }
 
 /// Tick label of the x axis.
-std::string TimeText(const PlotView& view, float x) {
-  if (view.time_axis == PlotView::TimeAxis::kClock) {
+std::string TickText(const PlotView& view, float x, int decimals) {
+  if (view.x_axis == PlotView::XAxis::kValue) {
+    return Fixed(static_cast<double>(x), decimals);
+  }
+  if (view.x_axis == PlotView::XAxis::kClock) {
     return ClockLabel(x);
   }
   const std::string text = Fixed(static_cast<double>(x), 0);
   return std::abs(x) < 1e-3f ? view.zero : (x > 0 ? "+" + text : text);
 }
 
-std::vector<float> TimeTicks(const Style& s, const Axes& axes) {
+std::vector<float> XTicks(const Style& s, const Axes& axes) {
   const PlotView& v = axes.view;
   if (!v.x_ticks.empty()) {
     return v.x_ticks;
   }
   const int count = std::max(2, static_cast<int>(axes.floor.w / s.Px(60)));
-  return v.time_axis == PlotView::TimeAxis::kClock ? ClockTicks(v.x_min, v.x_max, count)
-                                                   : RoundTicks(v.x_min, v.x_max, count);
+  return v.x_axis == PlotView::XAxis::kClock ? ClockTicks(v.x_min, v.x_max, count)
+                                             : RoundTicks(v.x_min, v.x_max, count);
 }
 
 void DrawGrid(UiFrame& ui, const Axes& axes) {
@@ -87,11 +90,12 @@ void DrawGrid(UiFrame& ui, const Axes& axes) {
              Fixed(static_cast<double>(y), decimals), Align::kRight);
   }
   // The unit once: beside every figure it would touch the next.
-  std::string unit = v.time_axis == PlotView::TimeAxis::kRelative ? " s" : "";
-  for (const float x : TimeTicks(s, axes)) {
+  std::string unit = v.x_axis == PlotView::XAxis::kRelative ? " s" : v.x_unit;
+  const std::vector<float> xs = XTicks(s, axes);
+  for (const float x : xs) {
     const float at = std::round(axes.X(x));
     FillRect(dl, {at, axes.floor.y, s.Px(1), axes.floor.h}, p.plot_grid);
-    const std::string label = TimeText(v, x) + unit;
+    const std::string label = TickText(v, x, DecimalsFor(xs)) + unit;
     unit.clear();
     // The last label would stick out of the panel.
     if (at + s.Px(16) < axes.floor.right() + s.Px(10)) {
@@ -118,6 +122,14 @@ void DrawLimitArea(const Style& s, const Axes& axes, const PlotLimit& limit) {
     FillRect(Canvas(), area, WithAlpha(s.palette.unsafe, 0.06f));
     Hatch(Canvas(), area, WithAlpha(s.palette.unsafe, 0.32f), s.Fine(1), s.Px(9));
   }
+}
+
+bool OnTrace(const Axes& axes, const Rect& words) {
+  const auto hits = [&](const PlotTrace& trace) {
+    return std::any_of(trace.points.begin(), trace.points.end(),
+                       [&](const ImVec2& point) { return words.Contains(axes.At(point)); });
+  };
+  return std::any_of(axes.view.series.begin(), axes.view.series.end(), hits);
 }
 
 /// The lowest place at or above text_y where words do not lie on a trace.
@@ -152,7 +164,16 @@ void DrawLimitLine(UiFrame& ui, const Axes& axes, const PlotLimit& limit) {
     words = words.substr(0, words.find(':'));
   }
   const float width = TextWidth(s.caption, words);
-  if (width <= room && axes.floor.h > s.Px(40)) {
+  if (width > room && axes.floor.h > s.Px(40)) {
+    // No future to stand in: at the beginning, where no trace is.
+    const float half = s.Px(9), left = axes.floor.x + s.Px(6);
+    const float whole = TextWidth(s.caption, limit.text);
+    const float above = ClearOfTraces(axes, left, left + whole, y - half, half);
+    const Rect box{left, above - half, whole, 2 * half};
+    if (box.y >= axes.floor.y && box.right() < axes.floor.right() && !OnTrace(axes, box)) {
+      DrawText(ui, s.caption, colour, left, above, limit.text);
+    }
+  } else if (axes.floor.h > s.Px(40)) {
     // Above the line, and above what is known of the traces further on; else below.
     const float half = s.Px(9), right = axes.floor.right() - s.Px(6);
     const float above = ClearOfTraces(axes, right - width, right, y - half, half);
@@ -276,7 +297,7 @@ void DrawHover(UiFrame& ui, const Axes& axes, const PlotHover& hover) {
   if (!std::isfinite(value)) {
     return;
   }
-  const std::string text = Fixed(value, 2) + " " + axes.view.unit;
+  const std::string text = Fixed(value, axes.view.hover_decimals) + " " + axes.view.unit;
   const float width = TextWidth(s.caption, text) + s.Px(12);
   const float left = x + s.Px(6) + width < axes.floor.right() ? x + s.Px(6) : x - s.Px(6) - width;
   const Rect box{left, axes.floor.y + s.Px(4), width, s.Px(20)};
@@ -339,7 +360,7 @@ float SeriesValueAt(const PlotTrace& series, float x) {
   return std::prev(after)->y;
 }
 
-void DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& hover) {
+Rect DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& hover) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   DrawPanelBackground(ui, panel, view.title);
@@ -347,7 +368,8 @@ void DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& h
   const float title_w = DrawText(ui, s.medium, p.text1, panel.x + s.Px(12), title_y, view.title);
   DrawText(ui, s.body, p.text3, panel.x + s.Px(18) + title_w, title_y, view.unit);
   DrawText(ui, s.medium, p.text1, panel.right() - s.Px(14), title_y, view.current, Align::kRight);
-  const Axes axes{{panel.x + s.Px(52), panel.y + s.Px(32), panel.w - s.Px(66), panel.h - s.Px(56)},
+  const Axes axes{{panel.x + s.Px(52), panel.y + s.Px(32), panel.w - s.Px(66) - view.side,
+                   panel.h - s.Px(56) - view.foot},
                   view};
   DrawGrid(ui, axes);
   ImDrawList* dl = Canvas();
@@ -385,6 +407,7 @@ void DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& h
     hover.next_x = view.x_min + share * (view.x_max - view.x_min);
   }
   ui.items.Add("plot/" + view.name, panel, true, view.title + " " + view.current);
+  return axes.floor;
 }
 
 }  // namespace palace

@@ -36,7 +36,11 @@ struct PlotView {
   std::string zero = "now";    ///< what a relative time of 0 is called
   std::vector<PlotTrace> series;
   std::vector<PlotLimit> limits;
-  enum class TimeAxis { kRelative, kClock } time_axis = TimeAxis::kRelative;  ///< "−10", "1:30"
+  enum class XAxis { kRelative, kClock, kValue } x_axis = XAxis::kRelative;  ///< "−10", "1:30"
+  std::string x_unit;      ///< of values: "°"
+  int hover_decimals = 2;  ///< of what is read off the first series
+  float foot = 0;          ///< pixels below the x axis that its owner draws in
+  float side = 0;          ///< and right of the series
 };
 
 /// One cursor for a group of plots.
@@ -50,7 +54,8 @@ void BeginPlots(PlotHover& hover);
 std::vector<float> RoundTicks(float low, float high, int count);
 /// Times in seconds on whole seconds, half minutes or minutes, at most `count` + 1 of them.
 std::vector<float> ClockTicks(float low, float high, int count);
-void DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& hover);
+/// Returns where the series lie: x_min and x_max are its left and right edge.
+Rect DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& hover);
 /// Value of the series at x, by the nearest earlier point; NaN outside.
 float SeriesValueAt(const PlotTrace& series, float x);
 

@@ -141,6 +141,27 @@ void NameGaps(UiFrame& ui, const Scale& scale, const TimelineView& view) {
   }
 }
 
+/// The stretch that is played again and again: a bar between two posts along the top.
+void DrawLoop(UiFrame& ui, const Scale& scale, const TimelineState& state) {
+  if (!state.loop_s) {
+    return;
+  }
+  const Style& s = ui.style;
+  const float left = std::max(scale.X(state.loop_s->first), scale.area.x);
+  const float right = std::min(scale.X(state.loop_s->second), scale.area.right());
+  if (right <= left) {
+    return;
+  }
+  const Rect bar{left, scale.area.y, std::max(right - left, s.Px(4)), s.Px(3)};
+  FillRect(Canvas(), bar, s.palette.text1);
+  for (const float x : {bar.x, bar.right() - s.Px(2)}) {
+    FillRect(Canvas(), {x, bar.y, s.Px(2), s.Px(9)}, s.palette.text1);
+  }
+  ui.items.Add(
+      "loop", bar, true,
+      TimeLabel(state.loop_s->first, true) + " to " + TimeLabel(state.loop_s->second, true));
+}
+
 void DrawOverview(UiFrame& ui, const Rect& rect, const TimelineView& view, TimelineState& state) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
@@ -162,6 +183,7 @@ void DrawOverview(UiFrame& ui, const Rect& rect, const TimelineView& view, Timel
   }
   FillRect(dl, {std::round(scale.X(view.position_s)) - s.Px(1), rect.y, s.Px(2), rect.h},
            p.white_mark);
+  DrawLoop(ui, scale, state);
   RunOverview(ui, scale, view, state);
 }
 

@@ -52,6 +52,7 @@ struct TimelineState {
   double to_s = 0;
   bool zoomed = false;
   double last_seek_s = -1;
+  std::optional<std::pair<double, double>> loop_s;  ///< played again and again: from, to
 };
 
 /// "03:13.4".

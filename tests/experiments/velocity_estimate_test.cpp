@@ -227,7 +227,7 @@ TEST(HandoverOnlooker, AHandOverThatIsNotSeenToItsEndIsUnknown) {
 }
 
 TEST(EvaluateVelocityEstimate, TheReportFailsForWhatIsBeyondItsLimits) {
-  const VelocityMethod& ours = MethodNamed("ours");
+  const VelocityMethod ours = MethodNamed("ours");
   VelocityFlight hover;
   hover.hover_rms_mps = Vector3d::Constant(0.02);
   HandoverFlight mission;

@@ -153,7 +153,7 @@ TEST(Approach, TheReasonOfAHoldOutlivesIt) {
   ASSERT_TRUE(rig.RunUntil(MissionState::kHold, 2));
   ASSERT_TRUE(rig.RunUntil(MissionState::kProposed, 10));
   EXPECT_EQ(rig.mission.status().selection_ended,
-            "Descent to site A stopped: Something stands in the approach.");
+            "Landing on site A stopped: Something stands in the approach.");
 }
 
 // Seen from where it begins the corridor may be another matter.

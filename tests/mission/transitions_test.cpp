@@ -27,8 +27,10 @@ TEST(Mission, WholeFlight) {
   EXPECT_NEAR(rig.mission.status().approval_answer_s, 0.1, 1e-9);
   EXPECT_TRUE(rig.mission.VisionAllowed());
   ASSERT_TRUE(rig.RunUntil(MissionState::kDescending, 5));
+  rig.navigation.gps.estimate.v_WB.z() = rig.navigation.vision.estimate.v_WB.z() = 0.42;
   ASSERT_TRUE(rig.RunUntil(MissionState::kLanded, 30)) << rig.mission.status().why;
   EXPECT_NEAR(*rig.mission.status().touchdown_miss_m, 0.5, 1e-9);
+  EXPECT_EQ(rig.mission.status().touchdown_sink_mps, 0.42);
   EXPECT_GE(rig.mission.status().rechecks.size(), 8U);
   EXPECT_EQ(rig.SentCount<Approval>(), 1);
   EXPECT_EQ(rig.SentCount<HoldRequest>() + rig.SentCount<AbortRequest>(), 0);

@@ -122,7 +122,7 @@ struct ApproachPlan {
   double glide_slope_rad = NAN;   ///< down from the horizon
   double descent_rate_mps = NAN;  ///< down the slope, the vertical part
   int side = kStraightApproach;   ///< that it comes from (approach_side.h)
-  std::string why{};                ///< of a side that the station chose: "into the wind"
+  std::string why{};              ///< of a side that the station chose: "into the wind"
 
   /// Round to another side, not straight from where the vehicle is.
   bool turned() const { return side != kStraightApproach; }
@@ -255,6 +255,7 @@ struct MissionStatus {
   /// LANDED: miss of the skid centre to the site, by the estimate.
   std::optional<double> touchdown_miss_m;
   std::optional<double> touchdown_miss_true_m;  ///< in simulation
+  std::optional<double> touchdown_sink_mps;     ///< just before it, by the estimate
 };
 
 }  // namespace palace

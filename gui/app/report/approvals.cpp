@@ -62,7 +62,7 @@ Rows Figures(const ApprovalRecord& record) {
        "heading " + HeadingText(a.approach_heading_rad) +
            WithNumbers(", slope %.0f°, %.2f m/s down", Deg(a.glide_slope_rad), a.descent_rate_mps)},
       {"Wind", WindWords(record)},
-      {"Valid", WithNumbers("%.0f s, unless the descent began",
+      {"Must begin within", WithNumbers("%.0f s of it, the way to where it begins counted in",
                             SecondsBetween(a.approved_at, a.expires_at))},
       {"Bound to", "map " + ShortHash(a.map_hash) + ", limits " + ShortHash(a.settings_hash) +
                        ", calibration " + ShortHash(a.calibration_hash)},

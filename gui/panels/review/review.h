@@ -14,8 +14,10 @@
 #include "engine/model/flight_record.h"
 #include "engine/model/snapshot.h"
 #include "gui/panels/fly_state.h"
+#include "gui/panels/review/loop_range.h"
 #include "gui/panels/review/redecide_run.h"
 #include "gui/panels/review/review_layout.h"
+#include "gui/panels/review/run_in.h"
 #include "gui/panels/terrain_views.h"
 #include "gui/widgets/slider_row.h"
 #include "gui/widgets/timeline_strip.h"
@@ -68,6 +70,8 @@ struct ReviewState {
   PlotHover plots;
   MapProbe probe;
   RedecideRun redecide;
+  LoopRange loop;
+  RunIn run_in;
   ReviewDigest digest;
   ReviewPicture picture = ReviewPicture::kView3d;  ///< narrow windows
   bool track_view = false;                         ///< every tracker on the left picture
@@ -97,6 +101,8 @@ const ReviewDigest& DigestOf(const EngineSnapshot& snap, const FlightRecord* rec
 void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record, const Rect& body,
                          ReviewState& state, UiFrame& ui);
 
+/// Appends what one of those who follow the replay asks for.
+void Ask(UiFrame& ui, const Intents& intents);
 void DrawReviewTimeline(const EngineSnapshot& snap, const TimelineView& view, const Rect& rect,
                         ReviewState& state, UiFrame& ui);
 ReviewPlots MakeReviewPlots(const EngineSnapshot& snap, const FlightRecord* record,
@@ -114,7 +120,7 @@ void DrawDecisionPanel(const EngineSnapshot& snap, const FlightRecord* record, c
                        UiFrame& ui);
 /// Why the list of differences is empty, and what to do.
 std::string WhyNoDifference(const EngineSnapshot& snap, const RedecidedShare& redecided);
-void DrawDifferencesPanel(const EngineSnapshot& snap, const ReviewDigest& digest, const Rect& rect,
+void DrawDifferencesPanel(const EngineSnapshot& snap, const Rect& rect, ReviewState& state,
                           UiFrame& ui);
 
 }  // namespace palace

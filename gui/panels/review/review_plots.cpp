@@ -88,7 +88,7 @@ void FillFlight(const EngineSnapshot& snap, const FlightRecord* record, PlotTrac
   view.series[0].colour = p.text1;
   view.x_min = 0;
   view.x_max = static_cast<float>(std::max(1.0, DurationOf(snap, record)));
-  view.time_axis = PlotView::TimeAxis::kClock;
+  view.x_axis = PlotView::XAxis::kClock;
   view.now = std::min(view.x_max, static_cast<float>(snap.session->source.position_s));
 }
 

@@ -20,10 +20,6 @@ std::string HowMany(int moved) {
                       : std::to_string(moved) + " limits changed";
 }
 
-void Ask(UiFrame& ui, const Intents& intents) {
-  ui.intents.insert(ui.intents.end(), intents.begin(), intents.end());
-}
-
 /// What pressing begins, and what was done of it: only what was judged under these very limits
 /// counts, however it came to be played.
 std::string BeginWords(const RedecideRun& run, const RedecidedShare& share) {

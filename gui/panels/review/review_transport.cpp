@@ -24,12 +24,14 @@ double NextSpeed(double speed) {
 }
 
 bool IconButton(UiFrame& ui, const char* name, const Rect& rect, Icon icon, bool active,
-                bool enabled, const char* why_not = "This source cannot jump in time") {
+                bool enabled, const char* why_not = "This source cannot jump in time",
+                const char* hint = "") {
   const Style& s = ui.style;
   ButtonLook look;
   look.active = active;
   look.enabled = enabled;
   look.reason = why_not;
+  look.hint = hint;
   const bool clicked = DrawButton(ui, name, rect, "", look);
   const ImU32 colour = !enabled ? s.palette.text3 : (active ? s.palette.on_white : s.palette.text1);
   DrawIcon(Canvas(), icon, rect.centre(), s.Px(20), colour);
@@ -69,7 +71,8 @@ float DrawWayOut(UiFrame& ui, float x, float y, const EngineSnapshot& snap) {
 }
 
 /// Draws the buttons; returns where they end.
-float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, double duration_s) {
+float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, double duration_s,
+                    const LoopRange& loop) {
   using Kind = PlaybackControl::Kind;
   const Style& s = ui.style;
   const bool seek = snap.session->source.can_seek;
@@ -108,6 +111,11 @@ float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, do
   speed_look.reason = kAlive;
   if (DrawButton(ui, "speed", next(68), speed, speed_look)) {
     Playback(ui, Kind::kSpeed, NextSpeed(snap.session->source.speed));
+  }
+  if (IconButton(ui, "loop_on", next(36), Icon::kLoop, loop.on(), seek,
+                 "This source cannot jump in time",
+                 "Plays a stretch again and again; I and O set its ends, L turns it on or off")) {
+    ui.intents.push_back(UiAction(ToggleLoop{}));
   }
   if (IconButton(ui, "bookmark", next(36), Icon::kFlag, false, snap.session->recording,
                  "Nothing is recorded here that a bookmark could be in")) {
@@ -160,7 +168,8 @@ void DrawReviewTimeline(const EngineSnapshot& snap, const TimelineView& view, co
   DrawPanelBackground(ui, rect, "Timeline");
   const float pad = s.Px(12);
   const Rect row{rect.x + pad, rect.y, rect.w - 2 * pad, s.Px(48)};
-  const float x = DrawTransport(ui, row, snap, view.duration_s);
+  state.timeline.loop_s = state.loop.Shown(view.duration_s);
+  const float x = DrawTransport(ui, row, snap, view.duration_s, state.loop);
   DrawClock(ui, row, x, snap, view.duration_s);
   DrawTimeline(ui, {row.x, row.bottom(), row.w, rect.bottom() - s.Px(6) - row.bottom()}, view,
                state.timeline);

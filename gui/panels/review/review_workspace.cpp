@@ -92,10 +92,15 @@ std::string WhyNoDifference(const EngineSnapshot& snap, const RedecidedShare& re
   return "None in the " + MapsWords(redecided) + " judged under these limits so far.";
 }
 
-void DrawDifferencesPanel(const EngineSnapshot& snap, const ReviewDigest& digest, const Rect& rect,
+void Ask(UiFrame& ui, const Intents& intents) {
+  ui.intents.insert(ui.intents.end(), intents.begin(), intents.end());
+}
+
+void DrawDifferencesPanel(const EngineSnapshot& snap, const Rect& rect, ReviewState& state,
                           UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
+  const ReviewDigest& digest = state.digest;
   const std::vector<ReviewDifference>& found = digest.differences;
   const std::string among =
       digest.redecided.judged > 0 ? " in " + MapsWords(digest.redecided) : std::string();
@@ -137,11 +142,24 @@ void DrawDifferencesPanel(const EngineSnapshot& snap, const ReviewDigest& digest
     DrawText(ui, s.body, p.text1, text_x, middle, words);
     DrawIcon(Canvas(), Icon::kChevronRight, {row.right() - s.Px(18), middle}, s.Px(12), p.text2);
     if (in.clicked) {
-      ui.intents.push_back(PlaybackControl{PlaybackControl::Kind::kSeek, d.at_s});
+      // A breath after it began: the first map of a stretch is on the screen then.
+      constexpr double kAfter_s = 0.05;
+      Ask(ui, state.run_in.Begin(snap.session->source, d.at_s + kAfter_s));
     }
   }
   ui.tab.list = {};
 }
+
+namespace {
+
+/// Who plays or jumps by itself: one at a time.
+void FollowReplay(const SourceStatus& source, ReviewState& state, UiFrame& ui) {
+  if (!state.redecide.running()) {
+    Ask(ui, state.run_in.running() ? state.run_in.Follow(source) : state.loop.Follow(source));
+  }
+}
+
+}  // namespace
 
 void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record, const Rect& body,
                          ReviewState& state, UiFrame& ui) {
@@ -155,12 +173,13 @@ void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record,
   const ReviewLayout layout = LayReview(body, s, state.picture);
   const ReviewDigest& digest = DigestOf(snap, record, s.palette, !layout.narrow, state.digest);
   BeginProbe(state.probe);
+  FollowReplay(snap.session->source, state, ui);
   ui.tab.group = kDecisionTabs;
   DrawReviewTimeline(snap, digest.timeline, layout.timeline, state, ui);
   DrawRedecidePanel(snap, record, layout.redecide, state, ui);
   DrawDecisionPanel(snap, record, layout.decision, ui);
   if (layout.differences.h > 0) {
-    DrawDifferencesPanel(snap, digest, layout.differences, ui);
+    DrawDifferencesPanel(snap, layout.differences, state, ui);
   }
   ui.tab.group = kViewTabs;
   DrawPictures(snap, layout, state, ui);

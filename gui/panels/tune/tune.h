@@ -4,19 +4,28 @@
 // (SessionPart::limits_apply, apply_drops). The history has one entry a gesture.
 #pragma once
 
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "engine/model/limit_sweep.h"
 #include "engine/model/snapshot.h"
 #include "gui/panels/terrain_views.h"
 #include "gui/panels/tune/preset_panel.h"
 #include "gui/panels/tune/setting_history.h"
+#include "gui/widgets/plot.h"
 #include "gui/widgets/slider_row.h"
 
 namespace palace {
 
-enum class TuneTab { kApply, kCells, kHistory };
+enum class TuneTab { kApply, kSweep, kCells, kHistory };
+
+/// Which limit is swept: the one moved last, until another is chosen.
+struct SweepChoice {
+  std::string limit = "slad.max_slope_deg";  ///< MaySweep
+  std::size_t after_steps = 0;               ///< of the history that it has followed
+};
 
 struct TuneState {
   SliderState sliders;
@@ -31,6 +40,9 @@ struct TuneState {
   MapProbe probe;
   TuneTab tab = TuneTab::kApply;  ///< narrow windows
   PresetState preset;
+  SweepChoice swept;
+  std::shared_ptr<const LimitSweep> sweep;  ///< the newest, perhaps of another limit; null: none
+  PlotHover sweep_hover;
 };
 
 /// What a limit would do, counted once a frame.
@@ -60,6 +72,8 @@ void DrawTuneMap(const EngineSnapshot& snap, const Rect& rect, MapKind kind, boo
 void DrawCompareStrip(const EngineSnapshot& snap, const Rect& rect, TuneState& state, UiFrame& ui);
 void DrawCellsPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 void DrawChosenPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+/// Area and best place over the whole range of one limit. A press on the plot moves the limit.
+void DrawSweepPanel(const EngineSnapshot& snap, const Rect& rect, TuneState& state, UiFrame& ui);
 void DrawHistoryPanel(const EngineSnapshot& snap, const Rect& rect, const TuneState& state,
                       UiFrame& ui);
 void DrawApplyPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);

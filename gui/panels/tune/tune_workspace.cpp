@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "gui/panels/fly_layout.h"
 #include "gui/panels/tune/tune.h"
@@ -42,10 +43,15 @@ void DrawWideCentre(const EngineSnapshot& snap, const Rect& c, TuneState& state,
 void DrawRight(const EngineSnapshot& snap, const Rect& r, TuneState& state, UiFrame& ui) {
   const Style& s = ui.style;
   const float gap = s.Px(8);
-  const float cells = s.Px(190), chosen = s.Px(140), apply = s.Px(224);
+  const float cells = s.Px(190), chosen = s.Px(126), apply = s.Px(190);
+  // What is left is the sweep's and the history's, which has two rows at least.
+  const float left = r.h - cells - chosen - apply - 4 * gap;
+  const float sweep = std::min(s.Px(260), left - s.Px(28 + 2 * 28 + 4));
   float y = r.y;
   DrawCellsPanel(snap, {r.x, y, r.w, cells}, ui);
   y += cells + gap;
+  DrawSweepPanel(snap, {r.x, y, r.w, sweep}, state, ui);
+  y += sweep + gap;
   DrawChosenPanel(snap, {r.x, y, r.w, chosen}, ui);
   y += chosen + gap;
   DrawHistoryPanel(snap, {r.x, y, r.w, r.bottom() - apply - gap - y}, state, ui);
@@ -57,8 +63,10 @@ void DrawNarrowTabs(const EngineSnapshot& snap, const Rect& r, TuneState& state,
   const struct {
     const char* label;
     TuneTab tab;
-  } tabs[] = {
-      {"Apply", TuneTab::kApply}, {"Cells", TuneTab::kCells}, {"History", TuneTab::kHistory}};
+  } tabs[] = {{"Apply", TuneTab::kApply},
+              {"Sweep", TuneTab::kSweep},
+              {"Cells", TuneTab::kCells},
+              {"History", TuneTab::kHistory}};
   DrawPanelBackground(ui, {r.x, r.y, r.w, s.Px(32)}, "Tabs");
   float x = r.x + s.Px(4);
   for (const auto& tab : tabs) {
@@ -73,6 +81,8 @@ void DrawNarrowTabs(const EngineSnapshot& snap, const Rect& r, TuneState& state,
   const Rect content{r.x, r.y + s.Px(36), r.w, r.h - s.Px(36)};
   if (state.tab == TuneTab::kApply) {
     DrawApplyPanel(snap, content, ui);
+  } else if (state.tab == TuneTab::kSweep) {
+    DrawSweepPanel(snap, content, state, ui);
   } else if (state.tab == TuneTab::kCells) {
     const float half = std::floor((content.w - s.Px(8)) / 2);
     DrawCellsPanel(snap, {content.x, content.y, half, content.h}, ui);
@@ -101,6 +111,21 @@ void DrawNarrowCentre(const EngineSnapshot& snap, const Rect& c, TuneState& stat
   DrawCompareStrip(snap, {c.x, c.y + upper + gap, c.w, strip}, state, ui);
   ui.tab.group = kDecisionTabs;
   DrawNarrowTabs(snap, {c.x, c.bottom() - tabs, c.w, tabs}, state, ui);
+}
+
+/// The limit that a person moved last is the one to ask about.
+void FollowHistory(TuneState& state) {
+  const std::size_t done = state.history.done();
+  if (done == std::exchange(state.swept.after_steps, done) || done == 0) {
+    return;
+  }
+  for (const SettingChange& change : state.history.steps()[done - 1].changes) {
+    const SettingInfo* info = FindSetting(change.name);
+    if (info != nullptr && MaySweep(*info)) {
+      state.swept.limit = change.name;
+      return;
+    }
+  }
 }
 
 }  // namespace
@@ -140,6 +165,8 @@ void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& 
                        UiFrame& ui) {
   const Style& s = ui.style;
   BeginProbe(state.probe);
+  BeginPlots(state.sweep_hover);
+  FollowHistory(state);
   const bool narrow = IsNarrowBody(body, s);
   const float gap = s.Px(8), left = s.Px(narrow ? 344 : 416), right = s.Px(400);
   DrawLimitsPanel(snap, {body.x, body.y, left, body.h}, state, ui);

@@ -23,6 +23,7 @@
 #include "gui/render/texture_set.h"
 #include "gui/widgets/interact.h"
 #include "tests/support/fake_snapshot.h"
+#include "tests/support/fake_sweep.h"
 
 namespace palace {
 namespace golden {
@@ -160,6 +161,7 @@ inline ImageRgba Draw(const Shot& shot, std::string& why) {
   before.session.Edit().preview_settings = {};
   tune.history.Remember(CommandAction(SetSetting{"slad.max_slope_deg", 6}), before, {});
   tune.history.Remember(CommandAction(SetSetting{"slad.max_deviation_m", 0.06}), before, {});
+  tune.sweep = fake::RoughnessSweep(snap);
   ReviewState review;
   DiagnoseState diagnose;
   SimulateState simulate;

@@ -146,10 +146,10 @@ TEST(ApproveWords, AnApprovalLeadsToADescentUnlessSomethingSpeaksAgainstTheSite)
   MissionStatus& m = snap.flight.Edit().mission;
   m.armed->confirmed = true;
   EXPECT_EQ(ApprovalConsequence(snap, false),
-            "5.9 m away, 38.2 m down. Touchdown in about 72 s, heading 040° at 1.0 m/s. From here "
+            "5.9 m away, 38.2 m down, heading 040°. Touchdown in about 72 s at 1.0 m/s. From here "
             "nothing thinner than 6 cm is sure to be seen.");
   EXPECT_EQ(ApprovalConsequence(snap, true),
-            "5.9 m away, 38.2 m down, touchdown in about 72 s. "
+            "5.9 m away, 38.2 m down, heading 040°, down in 72 s. "
             "Nothing thinner than 6 cm is sure to be seen.");
   m.armed->confirmed = false;
   m.armed->frames_fused = 1;

@@ -153,7 +153,7 @@ TEST(ReviewWorkspace, WhatWasNotJudgedAgainStaysEmpty) {
   EXPECT_NEAR(view.lanes[1].segments.back().to_s, 337.5, 0.01);
 }
 
-TEST(ReviewWorkspace, ClickOnADifferenceSeeksToIt) {
+TEST(ReviewWorkspace, ClickOnADifferenceRunsInToIt) {
   const FlightRecord record = fake::Record();
   UiHarness ui(1920, 1080);
   const EngineSnapshot snap = fake::Replay(true);
@@ -164,8 +164,11 @@ TEST(ReviewWorkspace, ClickOnADifferenceSeeksToIt) {
   ui.Frame(draw);
   ui.Click("difference/0", draw);
   const auto asked = Playbacks(ui.intents);
-  ASSERT_EQ(asked.size(), 1U);
-  EXPECT_NEAR(asked[0].value, 100, 0.2);
+  ASSERT_EQ(asked.size(), 2U);
+  EXPECT_EQ(asked[0].kind, PlaybackControl::Kind::kSeek);
+  EXPECT_NEAR(asked[0].value, 98, 0.2) << "two seconds before, for the map";
+  EXPECT_EQ(asked[1].kind, PlaybackControl::Kind::kPlay);
+  EXPECT_TRUE(state.run_in.running());
 }
 
 /// What the decision panel says in a replay that was entered by a jump.

@@ -16,10 +16,12 @@ TEST(VehiclePanel, TellsAClimbAsAClimbAndATouchdownAsItWasMeasured) {
   EngineSnapshot landed = fake::Snapshot(MissionState::kLanded);
   landed.flight.Edit().mission.touchdown_miss_m = 0.46;
   landed.flight.Edit().mission.touchdown_miss_true_m = 0.55;
+  landed.flight.Edit().mission.touchdown_sink_mps = 0.41;
   landed.flight.Edit().mission.distance_to_site_m = 1.0;  // the estimate drifts on
   FlyWindow window(1920, 1080, landed);
   EXPECT_EQ(window.ui.items.Find("readout/Off centre, estimate")->text, "0.46 m");
   EXPECT_EQ(window.ui.items.Find("readout/Off centre, in truth")->text, "0.55 m");
+  EXPECT_EQ(window.ui.items.Find("readout/Sink rate, estimate")->text, "0.41 m/s");
   EXPECT_EQ(window.ui.items.Find("readout/From site centre"), nullptr);
   ExpectTextsInPanels(window.ui.items);
 }
@@ -158,13 +160,21 @@ TEST(VehiclePanel, AHeightByThePoseOfAVehicleWithoutLaserSaysSo) {
 TEST(VehiclePanel, AWindTooWeakToComeFromAnywhereHasNoDirection) {
   const struct {
     double wind_mps, from_rad;
-    const char* words;
-  } table[] = {{2.1, Rad(240), "2.1 m/s, 240°"}, {0.3, Rad(240), "0.3 m/s"}, {2.1, NAN, "2.1 m/s"}};
+    const char *words, *narrow, *narrow_words;
+  } table[] = {{2.1, Rad(240), "2.1 m/s from 240°", "Wind from", "2.1 m/s 240°"},
+               {0.3, Rad(240), "0.3 m/s", "Wind", "0.3 m/s"},
+               {2.1, NAN, "2.1 m/s", "Wind", "2.1 m/s"}};
   for (const auto& row : table) {
     EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
     snap.sensors.Edit().vehicle->wind_speed_mps = row.wind_mps;
     snap.sensors.Edit().vehicle->wind_from_rad = row.from_rad;
     EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("readout/Wind")->text, row.words);
+    FlyWindow narrow(1280, 720, snap);
+    const Item* wind = narrow.ui.items.Find(std::string("readout/") + row.narrow);
+    ASSERT_NE(wind, nullptr) << row.narrow;
+    EXPECT_EQ(wind->text, row.narrow_words);
+    EXPECT_TRUE(HasText(narrow.ui.items, "Hdg 0"));
+    ExpectTextsInPanels(narrow.ui.items);
   }
 }
 
@@ -187,7 +197,9 @@ TEST(VehiclePanel, AHoverThatClimbsOrSinksTellsHowFast) {
       if (row.words != nullptr) {
         EXPECT_EQ(item->text, row.words);
       }
-      EXPECT_NE(window.ui.items.Find("readout/Wind"), nullptr) << label;
+      const bool wind = window.ui.items.Find("readout/Wind") != nullptr ||
+                        window.ui.items.Find("readout/Wind from") != nullptr;
+      EXPECT_TRUE(wind) << label;
       ExpectTextsInPanels(window.ui.items);
     }
   }
@@ -225,7 +237,7 @@ TEST(VehiclePanel, ANarrowPanelShowsTheEnergyOnceItIsLow) {
   for (const MissionState state : {MissionState::kProposed, MissionState::kDescending}) {
     FlyWindow high(1280, 1100, fake::Snapshot(state));
     EXPECT_NE(high.ui.items.Find("readout/Energy"), nullptr);
-    EXPECT_NE(high.ui.items.Find("readout/Wind"), nullptr);
+    EXPECT_NE(high.ui.items.Find("readout/Wind from"), nullptr);
     ExpectTextsInPanels(high.ui.items);
   }
 }
