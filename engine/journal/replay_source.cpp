@@ -150,6 +150,7 @@ void ReplaySource::ReadTrack() {
   auto record = std::make_shared<FlightRecord>();
   const ChannelNames& names = options_.channels;
   record->path = file_.path().string();
+  record->file_bytes = file_.size();
   record->start_s = static_cast<double>(bundles_.front().time.us) * 1e-6;
   record->duration_s = std::max(0.0, SecondsBetween(bundles_.front().time, bundles_.back().time));
   TrackReader reader(names, *record);

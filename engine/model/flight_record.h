@@ -106,6 +106,7 @@ struct FlightRecord {
   double start_s = 0;         ///< of the first bundle, seconds of data time
   double duration_s = 0;
   std::vector<RecordGap> gaps;  ///< longer than a second, in order of time
+  std::uint64_t file_bytes = 0;
 
   /// The newest that is not newer than `time`; null before the first.
   const FlightRecordSample* SampleAt(Timestamp time) const;

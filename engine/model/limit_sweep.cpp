@@ -19,12 +19,11 @@ bool MaySweep(const SettingInfo& limit) {
   return moved == standard;
 }
 
-bool SameBest(const LimitSweep& sweep, const SweptValue& a, const SweptValue& b) {
-  if (a.best_id == 0 || b.best_id == 0 || IsNamedSite(a.best_id) || IsNamedSite(b.best_id)) {
-    return a.best_id == b.best_id;
-  }
-  // "+1" is a letter of one list: as one place counts what the registry takes for one.
-  return (a.best_W - b.best_W).norm() <= sweep.others.slad.choice.spacing_m / 4;
+bool SameBest(const SweptValue& a, const SweptValue& b) {
+  const auto named = [](const SweptValue& swept) {
+    return swept.best_id == 0 || IsNamedSite(swept.best_id);
+  };
+  return named(a) || named(b) ? a.best_id == b.best_id : true;
 }
 
 std::optional<BestAround> BestAroundValue(const LimitSweep& sweep, double value) {
@@ -35,7 +34,7 @@ std::optional<BestAround> BestAroundValue(const LimitSweep& sweep, double value)
   const auto here = std::min_element(begin, end, [&](const SweptValue& a, const SweptValue& b) {
     return std::abs(a.value - value) < std::abs(b.value - value);
   });
-  const auto other = [&](const SweptValue& swept) { return !SameBest(sweep, swept, *here); };
+  const auto other = [&](const SweptValue& swept) { return !SameBest(swept, *here); };
   BestAround around{*here, {}, {}};
   if (const auto above = std::find_if(here, end, other); above != end) {
     around.above = {std::prev(above)->value, *above};

@@ -8,20 +8,17 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Dense>
-
 #include "engine/core/time.h"
 #include "engine/model/settings/settings.h"
 
 namespace palace {
 
 struct SweptValue {
-  double value = 0;                  ///< of the limit, as settings hold it
-  double safe_area_m2 = 0;           ///< cells that could bear the lander (HazardMaps::safe_cells)
-  std::uint64_t best_id = 0;         ///< of the first place that is not refused; 0: there is none
-  std::string best{};                ///< its letter; "+1": the flight has not named it
-  Eigen::Vector2d best_W{NAN, NAN};  ///< where it lies, north and east, metres
-  double best_clear_m = NAN;         ///< its safe distance
+  double value = 0;           ///< of the limit, as settings hold it
+  double safe_area_m2 = 0;    ///< cells that could bear the lander (HazardMaps::safe_cells)
+  std::uint64_t best_id = 0;  ///< of the first place that is not refused; 0: there is none
+  std::string best{};         ///< its letter; "+1": the flight has not named it
+  double best_clear_m = NAN;  ///< its safe distance
 };
 
 struct LimitSweep {
@@ -31,8 +28,9 @@ struct LimitSweep {
   std::vector<SweptValue> values;  ///< ascending; empty: it was given up
 };
 
-/// Whether two values of one sweep have the same best place, or none both.
-bool SameBest(const LimitSweep& sweep, const SweptValue& a, const SweptValue& b);
+/// Whether two values have the same best place, or none both. Places that the flight has not named
+/// are all one: which of them it is no letter tells.
+bool SameBest(const SweptValue& a, const SweptValue& b);
 
 /// Whether it can be swept on one map: a number that changes verdicts, and nothing of the map.
 bool MaySweep(const SettingInfo& limit);

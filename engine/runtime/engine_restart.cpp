@@ -50,7 +50,8 @@ bool Engine::StartAgain(const Inbox::Batch& failed, const std::string& reason,
       item.commands = failed.commands;
       item.bundle = failed.bundle;
     }
-    item.notes = {{.time = {}, .kind = EventKind::kAlarm, .text = text, .level = AlarmLevel::kWarning}};
+    item.notes = {
+        {.time = {}, .kind = EventKind::kAlarm, .text = text, .level = AlarmLevel::kWarning}};
     recorder_->Record(std::move(item), /*may_wait=*/false);
   }
   const std::optional<double> at_s = watch_.Stopped("Engine", reason, MonotonicSeconds());
@@ -112,7 +113,8 @@ bool Engine::SourceStopped(const std::string& reason, std::stop_token stop) {
   LogError(text);
   if (recorder_) {
     RecordItem item;
-    item.notes = {{.time = {}, .kind = EventKind::kAlarm, .text = text, .level = AlarmLevel::kWarning}};
+    item.notes = {
+        {.time = {}, .kind = EventKind::kAlarm, .text = text, .level = AlarmLevel::kWarning}};
     recorder_->Record(std::move(item), /*may_wait=*/false);
   }
   const auto at_s = source_watch_.Stopped("Source", reason, MonotonicSeconds());

@@ -46,7 +46,6 @@ class Judge {
     if (best != selection.sites.end()) {
       swept.best_id = best->id;
       swept.best = best->letter;
-      swept.best_W = best->p_WS.head<2>();
       swept.best_clear_m = best->safe_distance_m;
     }
     return swept;
@@ -80,7 +79,7 @@ std::optional<double> NextHalf(const SettingInfo& limit, const LimitSweep& sweep
   for (std::size_t i = 1; i < values.size(); ++i) {
     const double low = values[i - 1].value, high = values[i].value;
     const double half = ClampSetting(limit, (low + high) / 2);
-    const bool differs = !SameBest(sweep, values[i - 1], values[i]);
+    const bool differs = !SameBest(values[i - 1], values[i]);
     if (differs && high - low > shown * 1.5 && half > low && half < high &&
         (!next || std::abs(half - in_force) < std::abs(*next - in_force))) {
       next = half;

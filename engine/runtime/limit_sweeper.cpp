@@ -86,6 +86,8 @@ void LimitSweeper::Run(std::stop_token stop) {
       }
     } catch (const std::exception& error) {
       LogError(std::string("a limit could not be swept: ") + error.what());
+    } catch (...) {
+      LogError("a limit could not be swept: unknown exception");
     }
     lock.lock();
   }

@@ -75,6 +75,7 @@ void Pipeline::StartAfterJump(Timestamp now) {
       FollowsRecord(role_) && (!before.empty() || mission_of_record_.BeginsMidFlight())
           ? settings_.recorded().slad.fusion.frames_fused
           : 0;
+  from_start_ = maps_to_rebuild_ == 0;
   history_.Reset(std::move(before));
   laser_height_m_.reset();
   range_check_.Reset();

@@ -131,6 +131,7 @@ class Pipeline {
 
   SessionRole role_ = SessionRole::kNone;
   int maps_to_rebuild_ = 0;
+  bool from_start_ = true;  ///< of the record, without a jump since
   RecordedMission mission_of_record_;
   MissionStatus restored_;  ///< by the record, where the last jump led
   SettingsState settings_;

@@ -46,7 +46,8 @@ void Pipeline::Redecide(Pass& pass) {
   if (terrain.recorded && terrain.applied && (pass.new_map || pass.settings_moved) &&
       maps_to_rebuild_ == 0) {
     redecisions_.Add(
-        CompareDecisions(terrain.applied->map_time, *terrain.recorded, *terrain.applied));
+        CompareDecisions(terrain.applied->map_time, *terrain.recorded, *terrain.applied),
+        from_start_);
   }
   terrain.redecided = redecisions_.Publish();
 }

@@ -34,7 +34,12 @@ RedecidedSample CompareDecisions(Timestamp time, const TerrainDecision& recorded
   return sample;
 }
 
-void Redecisions::Add(const RedecidedSample& sample) {
+void Redecisions::Add(const RedecidedSample& sample, bool from_start) {
+  if (from_start) {
+    from_start_.insert(sample.time.us);
+  } else if (from_start_.count(sample.time.us) != 0) {
+    return;
+  }
   if (!samples_) {
     samples_ = std::make_shared<std::vector<RedecidedSample>>();
   } else if (samples_.use_count() != 1) {  // a snapshot holds it too

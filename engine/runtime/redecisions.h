@@ -2,7 +2,9 @@
 // played since a limit was moved last.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "engine/model/snapshot.h"
@@ -18,14 +20,20 @@ RedecidedSample CompareDecisions(Timestamp time, const TerrainDecision& recorded
 /// published vector never changes.
 class Redecisions {
  public:
-  void Add(const RedecidedSample& sample);
+  /// `from_start`: played from the start of the flight without a jump, with all that its maps
+  /// remembered then. What was decided so is not replaced by what was decided after a jump.
+  void Add(const RedecidedSample& sample, bool from_start);
   /// A limit moved: what was decided under the old one says nothing of the new.
-  void Forget() { samples_.reset(); }
+  void Forget() {
+    samples_.reset();
+    from_start_.clear();
+  }
   /// Null while nothing was decided again.
   std::shared_ptr<const std::vector<RedecidedSample>> Publish() const { return samples_; }
 
  private:
   std::shared_ptr<std::vector<RedecidedSample>> samples_;
+  std::set<std::int64_t> from_start_;  ///< times, microseconds
 };
 
 }  // namespace palace

@@ -147,10 +147,15 @@ Rect DrawHead(const EngineSnapshot& snap, const FlyLayout& layout, const SiteLis
        {live > 0 && !layout.narrow && !old && !preview ? "Tab for next" : ""}});
 }
 
-/// Puts the rows where they lay under the pointer, and the keyboard's row into sight. Returns what
-/// lies beyond the list.
-float ArrangeRows(const ListView& view, const Interaction& pointer, SiteListState& state,
-                  std::vector<Row>& rows, UiFrame& ui) {
+std::uint64_t ArmedId(const EngineSnapshot& snap) {
+  const auto& armed = snap.flight->mission.armed;
+  return armed ? armed->id : 0;
+}
+
+/// Puts the rows where they lay under the pointer, and the keyboard's row into sight; while neither
+/// is at work, that of the armed site. Returns what lies beyond the list.
+float ArrangeRows(const ListView& view, const Interaction& pointer, std::uint64_t armed,
+                  SiteListState& state, std::vector<Row>& rows, UiFrame& ui) {
   if (!pointer.hovered) {
     state.drawn.clear();
   }
@@ -164,10 +169,21 @@ float ArrangeRows(const ListView& view, const Interaction& pointer, SiteListStat
   for (const Row& one : rows) {
     state.drawn.push_back({one.id, one.letter});
   }
-  for (std::size_t i = 0; i < rows.size() && ui.focus.shown() != state.followed; ++i) {
-    if (rows[i].site != nullptr && ui.focus.Has(SiteItemName(rows[i].letter))) {
-      const float top = view.row * static_cast<float>(i);
-      state.scroll = std::clamp(state.scroll, top + view.row - view.list.h, top);
+  const auto show = [&](std::size_t i) {
+    const float top = view.row * static_cast<float>(i);
+    state.scroll = std::clamp(state.scroll, top + view.row - view.list.h, top);
+  };
+  bool by_keys = false;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool focused = rows[i].site != nullptr && ui.focus.Has(SiteItemName(rows[i].letter));
+    by_keys = by_keys || focused;
+    if (focused && ui.focus.shown() != state.followed) {
+      show(i);
+    }
+  }
+  for (std::size_t i = 0; i < rows.size() && !pointer.hovered && !by_keys; ++i) {
+    if (armed != 0 && rows[i].id == armed) {
+      show(i);  // what is about to be approved, or flown to, is not scrolled out of sight
     }
   }
   state.followed = ui.focus.shown();
@@ -262,7 +278,7 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
   if (none) {
     DrawEmpty(snap, content, ui);
   } else {
-    const float beyond = ArrangeRows(view, pointer, state, listed.rows, ui);
+    const float beyond = ArrangeRows(view, pointer, ArmedId(snap), state, listed.rows, ui);
     SiteRowLook all;
     all.narrow = layout.site_row_units < 60;
     all.old_map = old;

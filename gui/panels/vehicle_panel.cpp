@@ -111,11 +111,9 @@ struct Told {
   Readout Wind() const {
     const double wind = snap.sensors->vehicle ? snap.sensors->vehicle->wind_speed_mps : NAN;
     const double from = snap.sensors->vehicle ? snap.sensors->vehicle->wind_from_rad : NAN;
-    if (!WindHasDirection(wind) || !std::isfinite(from)) {
-      return ByStatus("Wind", wind, 1, "m/s");
-    }
-    return narrow ? ByStatus("Wind from", wind, 1, "m/s " + HeadingText(from))
-                  : ByStatus("Wind", wind, 1, "m/s from " + HeadingText(from));
+    return WindHasDirection(wind) && std::isfinite(from)
+               ? ByStatus("Wind, from", wind, 1, "m/s, " + HeadingText(from))
+               : ByStatus("Wind", wind, 1, "m/s");
   }
   /// Fuel or a battery: the vehicle does not say which.
   Readout Energy() const {

@@ -290,14 +290,14 @@ void DrawHover(UiFrame& ui, const Axes& axes, const PlotHover& hover) {
   const Style& s = ui.style;
   const float x = std::round(axes.X(*hover.x));
   FillRect(Canvas(), {x, axes.floor.y, s.Px(1), axes.floor.h}, WithAlpha(s.palette.text2, 0.8f));
-  if (axes.view.series.empty()) {
+  if (axes.view.series.empty() || !axes.view.reads) {
     return;
   }
   const double value = static_cast<double>(SeriesValueAt(axes.view.series.front(), *hover.x));
   if (!std::isfinite(value)) {
     return;
   }
-  const std::string text = Fixed(value, axes.view.hover_decimals) + " " + axes.view.unit;
+  const std::string text = Fixed(value, 2) + " " + axes.view.unit;
   const float width = TextWidth(s.caption, text) + s.Px(12);
   const float left = x + s.Px(6) + width < axes.floor.right() ? x + s.Px(6) : x - s.Px(6) - width;
   const Rect box{left, axes.floor.y + s.Px(4), width, s.Px(20)};

@@ -37,10 +37,10 @@ struct PlotView {
   std::vector<PlotTrace> series;
   std::vector<PlotLimit> limits;
   enum class XAxis { kRelative, kClock, kValue } x_axis = XAxis::kRelative;  ///< "−10", "1:30"
-  std::string x_unit;      ///< of values: "°"
-  int hover_decimals = 2;  ///< of what is read off the first series
-  float foot = 0;          ///< pixels below the x axis that its owner draws in
-  float side = 0;          ///< and right of the series
+  std::string x_unit;                                                        ///< of values: "°"
+  bool reads = true;  ///< the pointer reads the first series
+  float foot = 0;     ///< pixels below the x axis that its owner draws in
+  float side = 0;     ///< and right of the series
 };
 
 /// One cursor for a group of plots.

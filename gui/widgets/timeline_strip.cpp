@@ -141,7 +141,7 @@ void NameGaps(UiFrame& ui, const Scale& scale, const TimelineView& view) {
   }
 }
 
-/// The stretch that is played again and again: a bar between two posts along the top.
+/// The stretch of the loop: a bar between two posts along the bottom, bright while it is played.
 void DrawLoop(UiFrame& ui, const Scale& scale, const TimelineState& state) {
   if (!state.loop_s) {
     return;
@@ -152,13 +152,14 @@ void DrawLoop(UiFrame& ui, const Scale& scale, const TimelineState& state) {
   if (right <= left) {
     return;
   }
-  const Rect bar{left, scale.area.y, std::max(right - left, s.Px(4)), s.Px(3)};
-  FillRect(Canvas(), bar, s.palette.text1);
+  const ImU32 ink = state.loops ? s.palette.text1 : s.palette.text3;
+  const Rect bar{left, scale.area.bottom() - s.Px(3), std::max(right - left, s.Px(4)), s.Px(3)};
+  FillRect(Canvas(), bar, ink);
   for (const float x : {bar.x, bar.right() - s.Px(2)}) {
-    FillRect(Canvas(), {x, bar.y, s.Px(2), s.Px(9)}, s.palette.text1);
+    FillRect(Canvas(), {x, bar.bottom() - s.Px(9), s.Px(2), s.Px(9)}, ink);
   }
   ui.items.Add(
-      "loop", bar, true,
+      "loop", bar, state.loops,
       TimeLabel(state.loop_s->first, true) + " to " + TimeLabel(state.loop_s->second, true));
 }
 
@@ -426,7 +427,7 @@ void DrawTimeline(UiFrame& ui, const Rect& rect, const TimelineView& view, Timel
     // Under the pointer the lane says its value, however short the stretch is.
     const std::string value =
         row.Contains(pointer) ? ValueAt(lane, scale.T(pointer.x)) : std::string();
-    const std::string said = value.empty() ? lane.name : value;
+    const std::string said = value.empty() ? lane.name : lane.name + ": " + value;
     DrawText(ui, s.caption, value.empty() ? p.text2 : p.text1, rect.x, row.centre().y,
              FitWords(s.caption, said, names - s.Px(4)));
     FillRect(Canvas(), {row.x, row.bottom() - s.Px(1), row.w, s.Px(1)}, p.plot_grid);

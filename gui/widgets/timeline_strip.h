@@ -52,7 +52,8 @@ struct TimelineState {
   double to_s = 0;
   bool zoomed = false;
   double last_seek_s = -1;
-  std::optional<std::pair<double, double>> loop_s;  ///< played again and again: from, to
+  std::optional<std::pair<double, double>> loop_s;  ///< a stretch with its ends: from, to
+  bool loops = false;                               ///< it is played again and again
 };
 
 /// "03:13.4".

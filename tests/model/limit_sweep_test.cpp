@@ -48,16 +48,13 @@ TEST(BestAroundValue, FindsTheNextChangesOnBothSides) {
   EXPECT_FALSE(BestAroundValue(LimitSweep{}, 1));
 }
 
-TEST(SameBest, PlacesWithoutALetterOfTheFlightAreKnownByWhereTheyLie) {
-  const LimitSweep sweep = Sweep();
-  const std::uint64_t unnamed = kFirstUnnamedSite + 1;
-  const SweptValue here{.best_id = unnamed, .best_W = {3, 4}};
-  const SweptValue near{.best_id = unnamed + 1, .best_W = {3.2, 4}};
-  const SweptValue far{.best_id = unnamed, .best_W = {9, 4}};
-  EXPECT_TRUE(SameBest(sweep, here, near));
-  EXPECT_FALSE(SameBest(sweep, here, far));
-  EXPECT_FALSE(SameBest(sweep, here, {.best_id = 1, .best_W = {3, 4}}));
-  EXPECT_TRUE(SameBest(sweep, {}, {}));
+TEST(SameBest, PlacesWithoutALetterOfTheFlightAreOne) {
+  const SweptValue here{.best_id = kFirstUnnamedSite + 1}, there{.best_id = kFirstUnnamedSite + 2};
+  EXPECT_TRUE(SameBest(here, there));
+  EXPECT_FALSE(SameBest(here, {.best_id = 1}));
+  EXPECT_FALSE(SameBest({.best_id = 2}, {.best_id = 1}));
+  EXPECT_FALSE(SameBest({}, {.best_id = 1}));
+  EXPECT_TRUE(SameBest({}, {}));
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ TEST(LimitSweep, TellsAChangeOfTheBestPlaceToTheNumberThatTheScreenShows) {
   const LimitSweep sweep = Swept(world.Request("slad.max_slope_deg"));
   int changes = 0;
   for (std::size_t i = 1; i < sweep.values.size(); ++i) {
-    if (!SameBest(sweep, sweep.values[i - 1], sweep.values[i])) {
+    if (!SameBest(sweep.values[i - 1], sweep.values[i])) {
       ++changes;
       EXPECT_LE(sweep.values[i].value - sweep.values[i - 1].value, 0.15 + 1e-9);
     }

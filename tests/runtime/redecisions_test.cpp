@@ -53,7 +53,7 @@ TEST(Redecisions, OneSampleATimeInOrderHoweverTheLogWasPlayed) {
     RedecidedSample sample;
     sample.time = {us};
     sample.best_site = letter;
-    redecisions.Add(sample);
+    redecisions.Add(sample, false);
   };
   add(50, "a");
   const auto published = redecisions.Publish();
@@ -101,6 +101,24 @@ TEST(RecordedNames, UnderTheLimitsOfTheFlightTheSitesStandAsTheyStood) {
   };
   EXPECT_EQ(letters(false), "KbB");
   EXPECT_EQ(letters(true), "BKb");
+}
+
+TEST(Redecisions, WhatWasDecidedFromTheStartIsNotReplacedAfterAJump) {
+  Redecisions redecisions;
+  const auto add = [&](const char* letter, bool from_start) {
+    RedecidedSample sample;
+    sample.time = {50};
+    sample.best_site = letter;
+    redecisions.Add(sample, from_start);
+    return redecisions.Publish()->front().best_site;
+  };
+  EXPECT_EQ(add("a", false), "a");
+  EXPECT_EQ(add("b", false), "b");
+  EXPECT_EQ(add("c", true), "c");
+  EXPECT_EQ(add("d", false), "c");
+  EXPECT_EQ(add("e", true), "e");
+  redecisions.Forget();
+  EXPECT_EQ(add("f", false), "f");
 }
 
 }  // namespace

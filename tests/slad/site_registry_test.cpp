@@ -392,6 +392,30 @@ TEST(SiteRegistry, TheSameMapAgainAndOtherLimitsOnACopyChangeNothing) {
   EXPECT_EQ(LettersOf(hover.See(Flat())), LettersOf(before));
 }
 
+// A preview and a sweep ask what a limit does: what one map alone would change is no answer.
+TEST(SiteRegistry, UnderOtherLimitsAPlaceKeepsItsRowWhileItHolds) {
+  Hover hover;
+  const Height walls = WithBox(WithBox(Flat(), 9.5, 0, 12, 1), -9.5, 0, 12, 1);
+  const SiteSelection before = hover.SeeOften(30, walls);
+  ASSERT_EQ(before.sites[0].letter, "A");
+  // 0.6 m beside it there is 0.6 m more room on this map.
+  ElevationMap map =
+      MakeMap(100, 100, 0.15, WithBox(WithBox(Flat(), 10.7, 0, 12, 1), -9.5, 0, 12, 1));
+  map.time = {10'000'000};
+  const auto best = [&](double max_slope_deg, double nav_error_m) {
+    SiteRegistry copy = hover.registry_;
+    copy.GiveNoLetters();
+    hover.settings = {};
+    hover.settings.limits.max_slope_deg = max_slope_deg;
+    hover.settings.lander.nav_error_m = nav_error_m;
+    const SiteSelection list = hover.Judge(map, copy);
+    return list.sites.empty() ? std::string() : list.sites[0].letter;
+  };
+  EXPECT_EQ(best(10, 0.5), "A");
+  EXPECT_EQ(best(11, 0.5), "A") << "another limit, which decides nothing here";
+  EXPECT_NE(best(10, 2.0), "A") << "there it does not hold";
+}
+
 // A preview lists places that the flight never listed: it must not call them by letters that the
 // flight gives to others.
 TEST(SiteRegistry, ACopyThatGivesNoLettersNamesNothingTheFlightDidNot) {

@@ -20,7 +20,6 @@ inline std::shared_ptr<const LimitSweep> RoughnessSweep(const EngineSnapshot& sn
     if (cm >= 2) {
       swept.best_id = cm < 5 ? kFirstUnnamedSite + 1 : cm < 9 ? 2 : 1;
       swept.best = cm < 5 ? "+1" : cm < 9 ? "B" : "A";
-      swept.best_W = {3.0, 4.0};
       swept.best_clear_m = 3.4;
     }
     sweep->values.push_back(swept);

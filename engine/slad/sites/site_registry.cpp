@@ -136,8 +136,11 @@ SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& ha
 void SiteRegistry::StartMap(const Map& now) {
   if (now.first) {
     for (SitePlace& place : places_) {
-      place = {
-          .id = place.id, .letter = place.letter, .p_W = place.p_W, .named_at = place.named_at};
+      place = {.id = place.id,
+               .letter = place.letter,
+               .p_W = place.p_W,
+               .named_at = place.named_at,
+               .rank = place.rank};
     }
   }
   if (!now.again) {

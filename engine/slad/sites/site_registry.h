@@ -25,8 +25,9 @@
 //              is still in view
 //
 // So a single map with a false cell lists and names nothing and moves no ring, while a place that
-// the newest map calls unsafe is never in the list. Under other limits all but places and letters
-// starts anew. Source: ours.
+// the newest map calls unsafe is never in the list. Under other limits what was counted over maps
+// starts anew and new places are listed at once; a place that was listed keeps its row while it can
+// bear the lander, until another is better by more than the noise. Source: ours.
 #pragma once
 
 #include <cmath>

@@ -3,7 +3,6 @@
 namespace palace {
 
 void LoopRange::Set(LoopEdge edge, double at_s) {
-  on_ = true;
   if (edge == LoopEdge::kIn) {
     in_s_ = at_s;
     out_s_ = out_s_ && *out_s_ <= at_s ? std::nullopt : out_s_;
@@ -14,7 +13,8 @@ void LoopRange::Set(LoopEdge edge, double at_s) {
 }
 
 std::optional<std::pair<double, double>> LoopRange::Shown(double duration_s) const {
-  return on_ ? std::optional(std::pair(in_s_.value_or(0), out_s_.value_or(duration_s)))
+  return on_ || in_s_ || out_s_
+             ? std::optional(std::pair(in_s_.value_or(0), out_s_.value_or(duration_s)))
              : std::nullopt;
 }
 

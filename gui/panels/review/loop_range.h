@@ -16,12 +16,12 @@ namespace palace {
 
 class LoopRange {
  public:
-  /// Sets one end and turns the loop on; an end on the wrong side of the other replaces it.
+  /// Sets one end, on or off; an end on the wrong side of the other replaces it.
   void Set(LoopEdge edge, double at_s);
   /// On or off; the ends stay.
   void Toggle() { on_ = !on_; }
   bool on() const { return on_; }
-  /// From, to, seconds from the start of the log; nothing while it is off.
+  /// From, to, seconds from the start of the log; nothing while it is off and has no end of its own.
   std::optional<std::pair<double, double>> Shown(double duration_s) const;
   /// Once a frame: what turns the replay back, or nothing.
   Intents Follow(const SourceStatus& source);

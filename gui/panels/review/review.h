@@ -103,7 +103,7 @@ void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record,
 
 /// Appends what one of those who follow the replay asks for.
 void Ask(UiFrame& ui, const Intents& intents);
-void DrawReviewTimeline(const EngineSnapshot& snap, const TimelineView& view, const Rect& rect,
+void DrawReviewTimeline(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
                         ReviewState& state, UiFrame& ui);
 ReviewPlots MakeReviewPlots(const EngineSnapshot& snap, const FlightRecord* record,
                             const Palette& palette);

@@ -102,8 +102,10 @@ void DrawDifference(const EngineSnapshot& snap, const Grid<std::uint8_t>& change
                     UiFrame& ui) {
   const Style& s = ui.style;
   const TerrainDecision* now = snap.terrain->applied.get();
-  const bool moved = snap.terrain->recorded != nullptr && ui.textures.difference != nullptr &&
-                     now != nullptr && now->hazards && recorded->hazards;
+  const int rebuilding = snap.terrain->maps_to_rebuild;  // of half a map nothing is compared
+  const bool moved = rebuilding == 0 && snap.terrain->recorded != nullptr &&
+                     ui.textures.difference != nullptr && now != nullptr && now->hazards &&
+                     recorded->hazards;
   const double change_m2 = SafeArea(now) - SafeArea(recorded);
   const std::string change_words =
       std::isfinite(change_m2) ? (change_m2 > 0 ? "+" : "") + Fixed(change_m2, 0) + " m² safe"
@@ -116,6 +118,7 @@ void DrawDifference(const EngineSnapshot& snap, const Grid<std::uint8_t>& change
     DrawText(ui, s.caption, s.palette.text2, area.centre().x, area.centre().y,
              !FollowsRecord(snap.session->role) ? "Only of a log"
              : LimitsMoved(snap) == 0           ? "Same limits"
+             : rebuilding > 0                   ? "Map being built anew"
                                                 : "No map yet",
              Align::kCentre);
     ui.items.Add("map/Difference", area, true, "Difference");

@@ -1,9 +1,11 @@
 // Timeline of Review: transport buttons, the way out, the clock, and the strip below them.
 #include <cmath>
+#include <filesystem>
 
 #include "gui/panels/review/review.h"
 #include "gui/panels/session_words.h"
 #include "gui/widgets/button.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -125,8 +127,50 @@ float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, do
   return DrawWayOut(ui, x, y, snap);
 }
 
-void DrawClock(UiFrame& ui, const Rect& row, float x, const EngineSnapshot& snap,
-               double duration_s) {
+/// "1.9 GB", "6.4 MB".
+std::string FileSize(std::uint64_t bytes) {
+  const double mb = static_cast<double>(bytes) * 1e-6;
+  return mb < 1000 ? Fixed(mb, 1) + " MB" : Fixed(mb / 1000, 1) + " GB";
+}
+
+/// What the log is, the most telling last: where room is short the first go.
+std::vector<std::string> LogWords(const SourceStatus& source, const FlightRecord* record) {
+  const std::filesystem::path path(source.name);
+  std::vector<std::string> words = {(path.parent_path().filename() / path.filename()).string()};
+  if (record != nullptr && record->file_bytes > 0) {
+    words.push_back(FileSize(record->file_bytes));
+  }
+  if (record != nullptr) {
+    const std::size_t gaps = record->gaps.size();
+    words.push_back((source.damage.empty() ? "whole" : "damaged") +
+                    (gaps == 0   ? std::string()
+                     : gaps == 1 ? ", 1 gap"
+                                 : ", " + std::to_string(gaps) + " gaps"));
+  }
+  return words;
+}
+
+/// Right-aligned; returns where what lies left of it ends. Of a log that is damaged (`damage`: what
+/// is wrong) it is a caution.
+float DrawLogWord(UiFrame& ui, const Rect& row, float right, const std::string& word,
+                  const std::string& damage) {
+  const Style& s = ui.style;
+  const float width = TextWidth(s.body, word) + (damage.empty() ? 0 : s.Px(20));
+  const Rect box{right - width, row.y, width, row.h};
+  DrawText(ui, s.body, damage.empty() ? s.palette.text2 : s.palette.text1, right, row.centre().y,
+           word, Align::kRight);
+  if (!damage.empty()) {
+    DrawIcon(Canvas(), Icon::kCaution, {box.x + s.Px(7), row.centre().y}, s.Px(12),
+             s.palette.caution);
+    if (Interact(ui, "log_damage", box, kPassive).hovered) {
+      DrawTooltip(ui, damage, &box);
+    }
+  }
+  return box.x - s.Px(16);
+}
+
+void DrawClock(UiFrame& ui, const Rect& row, float x, const EngineSnapshot& snap, double duration_s,
+               const FlightRecord* record) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const float middle = row.centre().y;
@@ -134,6 +178,12 @@ void DrawClock(UiFrame& ui, const Rect& row, float x, const EngineSnapshot& snap
   x += DrawText(ui, s.replay_time, p.text1, x, middle,
                 TimeLabel(snap.session->source.position_s, true)) +
        s.Px(20);
+  std::vector<std::string> words = LogWords(snap.session->source, record);
+  float right = row.right();
+  if (record != nullptr) {
+    right = DrawLogWord(ui, row, right, words.back(), snap.session->source.damage);
+    words.pop_back();
+  }
   std::vector<std::pair<ImFont*, std::string>> facts;
   if (snap.session->source.can_seek && snap.session->source.duration_s) {
     facts.emplace_back(s.body, "of " + TimeLabel(duration_s, true));
@@ -144,33 +194,33 @@ void DrawClock(UiFrame& ui, const Rect& row, float x, const EngineSnapshot& snap
                     " of " + Fixed(static_cast<double>(snap.session->source.frame_count), 0));
   }
   facts.emplace_back(s.mono, ClockText(snap.time) + " " + ClockName(snap));
-  const std::string name =
-      snap.session->source.name.substr(snap.session->source.name.find_last_of('/') + 1);
-  const float name_x = row.right() - TextWidth(s.body, name);
   for (const auto& [font, text] : facts) {
     const float width = TextWidth(font, text);
-    if (x + width > row.right()) {
+    if (x + width > right) {
       return;
     }
     DrawText(ui, font, p.text2, x, middle, text);
     x += width + s.Px(28);
   }
-  if (name_x > x) {
-    DrawText(ui, s.body, p.text2, row.right(), middle, name, Align::kRight);
+  while (!words.empty() && right - TextWidth(s.body, words.back()) > x) {
+    right = DrawLogWord(ui, row, right, words.back(), {});
+    words.pop_back();
   }
 }
 
 }  // namespace
 
-void DrawReviewTimeline(const EngineSnapshot& snap, const TimelineView& view, const Rect& rect,
+void DrawReviewTimeline(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
                         ReviewState& state, UiFrame& ui) {
+  const TimelineView& view = state.digest.timeline;
   const Style& s = ui.style;
   DrawPanelBackground(ui, rect, "Timeline");
   const float pad = s.Px(12);
   const Rect row{rect.x + pad, rect.y, rect.w - 2 * pad, s.Px(48)};
   state.timeline.loop_s = state.loop.Shown(view.duration_s);
+  state.timeline.loops = state.loop.on();
   const float x = DrawTransport(ui, row, snap, view.duration_s, state.loop);
-  DrawClock(ui, row, x, snap, view.duration_s);
+  DrawClock(ui, row, x, snap, view.duration_s, record);
   DrawTimeline(ui, {row.x, row.bottom(), row.w, rect.bottom() - s.Px(6) - row.bottom()}, view,
                state.timeline);
 }

@@ -175,7 +175,7 @@ void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record,
   BeginProbe(state.probe);
   FollowReplay(snap.session->source, state, ui);
   ui.tab.group = kDecisionTabs;
-  DrawReviewTimeline(snap, digest.timeline, layout.timeline, state, ui);
+  DrawReviewTimeline(snap, record, layout.timeline, state, ui);
   DrawRedecidePanel(snap, record, layout.redecide, state, ui);
   DrawDecisionPanel(snap, record, layout.decision, ui);
   if (layout.differences.h > 0) {

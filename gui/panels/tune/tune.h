@@ -43,7 +43,12 @@ struct TuneState {
   SweepChoice swept;
   std::shared_ptr<const LimitSweep> sweep;  ///< the newest, perhaps of another limit; null: none
   PlotHover sweep_hover;
+  LimitsApply told = LimitsApply::kAtOnce;  ///< when a moved limit applied, in the last frame
+  double withheld_until_s = 0;              ///< UI clock: until then no press moves a limit
 };
+
+/// What waits to be read: a press that was meant as a preview applies nothing.
+bool IsWithheld(const TuneState& state, const UiFrame& ui);
 
 /// What a limit would do, counted once a frame.
 struct TuneFacts {

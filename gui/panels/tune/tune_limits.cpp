@@ -172,6 +172,9 @@ void DrawRow(UiFrame& ui, const Rect& box, const ListRow& row, const EngineSnaps
   SliderRow slider;
   slider.info = row.info;
   slider.value = GetSetting(snap.session->preview_settings, row.info->name);
+  if (IsWithheld(state, ui)) {
+    slider.ask = [](double) {};
+  }
   slider.pending = slider.value != GetSetting(snap.session->settings, row.info->name);
   DrawSliderRow(ui, box, slider, snap.session->preview_settings, state.sliders);
 }

@@ -106,7 +106,9 @@ ApplyWords WordsFor(const EngineSnapshot& snap, const TuneFacts& f) {
   if (at_once) {
     w.state = "Applies at once";
     w.sentence = "Limits apply at once.";
-    w.detail = "A moved limit judges the newest map, and all after it. " + hash;
+    const std::string& ended = snap.flight->mission.selection_ended;
+    w.detail = ended + (ended.empty() ? "" : " ") +
+               "A moved limit judges the newest map, and all after it. " + hash;
     return w;
   }
   if (f.pending == 0) {

@@ -76,7 +76,7 @@ std::string BestName(const SweptValue& swept) {
   return swept.best_id == 0 ? "no site" : IsNamedSite(swept.best_id) ? swept.best : "a new place";
 }
 
-/// "Below 7.4° the best site moves from A to B." Of the changes on both sides the nearer one.
+/// "Below 7.4° the best is B, not A." Of the changes on both sides the nearer one.
 std::string ChangeWords(const SweepView& view) {
   const std::optional<BestAround> around = BestAroundValue(*view.sweep, view.preview);
   const auto& below = around->below;
@@ -94,8 +94,8 @@ std::string ChangeWords(const SweepView& view) {
     return where + "there is a site: " + BestName(change.then) + ".";
   }
   return change.then.best_id == 0 ? where + "no site is left."
-                                  : where + "the best site moves from " + BestName(around->here) +
-                                        " to " + BestName(change.then) + ".";
+                                  : where + "the best is " + BestName(change.then) + ", not " +
+                                        BestName(around->here) + ".";
 }
 
 std::string ValueWords(const SweepView& view, double value) {
@@ -115,19 +115,15 @@ PlotView PlotOf(const Style& s, const SweepView& view) {
   plot.x_axis = PlotView::XAxis::kValue;
   plot.x_unit =
       view.limit.unit.empty() || view.limit.unit == "°" ? view.limit.unit : " " + view.limit.unit;
-  plot.hover_decimals = 0;
-  plot.x_min = view.Shown(view.limit.soft_min);
-  plot.x_max = view.Shown(view.limit.soft_max);
+  plot.reads = false;  // the words below do
+  plot.x_min = view.Shown(view.sweep->values.front().value);
+  plot.x_max = view.Shown(view.sweep->values.back().value);
   PlotTrace area;
   area.colour = s.palette.safe;
   float most = 1;
-  if (view.sweep != nullptr) {
-    plot.x_min = view.Shown(view.sweep->values.front().value);
-    plot.x_max = view.Shown(view.sweep->values.back().value);
-    for (const SweptValue& swept : view.sweep->values) {
-      area.points.push_back({view.Shown(swept.value), static_cast<float>(swept.safe_area_m2)});
-      most = std::max(most, area.points.back().y);
-    }
+  for (const SweptValue& swept : view.sweep->values) {
+    area.points.push_back({view.Shown(swept.value), static_cast<float>(swept.safe_area_m2)});
+    most = std::max(most, area.points.back().y);
   }
   plot.y_max = most * 1.15f;
   plot.series.push_back(std::move(area));
@@ -146,22 +142,26 @@ void DrawValues(UiFrame& ui, const Rect& floor, const PlotView& plot, const Swee
   const bool moved = view.preview != view.applied;
   const ImVec2 preview = at(view.preview);
   FillRect(Canvas(), {std::round(preview.x), floor.y, s.Px(1), floor.h}, p.white_mark);
-  const auto mark = [&](double value, ImU32 colour, const char* name, float beside) {
+  // Beside a curve that rises to the right it is clear below on the right and above on the left.
+  const double around = (view.sweep->values.back().value - view.sweep->values.front().value) / 12;
+  const auto mark = [&](double value, ImU32 colour, ImU32 ink, const char* name, bool right) {
     const ImVec2 point = at(value);
     Canvas()->AddCircleFilled(point, s.Fine(4), colour);
     Canvas()->AddCircle(point, s.Fine(4), p.plot_floor, 0, s.Fine(1));
     const std::string words = name + (" " + FormatSetting(view.limit, value));
-    const bool right = point.x + s.Px(10) + TextWidth(s.caption, words) < floor.right();
-    DrawText(ui, s.caption, colour == p.safe ? p.text1 : p.text2, point.x + s.Px(right ? 8 : -8),
-             std::clamp(point.y + s.Px(beside), floor.y + s.Px(9), floor.bottom() - s.Px(9)), words,
-             right ? Align::kLeft : Align::kRight);
+    const float width = TextWidth(s.caption, words) + s.Px(10);
+    right = right ? point.x + width < floor.right() : point.x - width < floor.x;
+    const bool rises = AreaAt(*view.sweep, value + around) >= AreaAt(*view.sweep, value - around);
+    DrawText(ui, s.caption, ink, point.x + s.Px(right ? 8 : -8),
+             std::clamp(point.y + s.Px(rises == right ? 12 : -12), floor.y + s.Px(9),
+                        floor.bottom() - s.Px(9)),
+             words, right ? Align::kLeft : Align::kRight);
   };
   if (moved) {
-    // Of two that are near each other the names keep apart: one above the curve, one below.
-    mark(view.applied, p.text2, "applied", view.applied > view.preview ? -12 : 12);
+    mark(view.applied, p.text2, p.text2, "applied", view.applied > view.preview);
   }
-  mark(view.preview, p.safe, moved ? "preview" : "applied",
-       !moved || view.preview < view.applied ? 12 : -12);
+  mark(view.preview, p.safe, p.text1, moved ? "preview" : "applied",
+       !moved || view.preview > view.applied);
 }
 
 /// Which place would be the best, below the values for which it would.
@@ -174,7 +174,7 @@ void DrawBest(UiFrame& ui, const Rect& strip, const PlotView& plot, const SweepV
   };
   for (std::size_t i = 0; i < values.size();) {
     std::size_t end = i + 1;
-    while (end < values.size() && SameBest(*view.sweep, values[i], values[end])) {
+    while (end < values.size() && SameBest(values[i], values[end])) {
       ++end;
     }
     const float left = i == 0 ? strip.x : (x(values[i - 1].value) + x(values[i].value)) / 2;
@@ -226,9 +226,10 @@ void DrawChoice(UiFrame& ui, const Rect& rect, TuneState& state) {
 }
 
 /// What a press on the plot asks for, as the slider's grab at that place would.
-void TakePress(UiFrame& ui, const Rect& floor, const PlotView& plot, const SweepView& view) {
+void TakePress(UiFrame& ui, const Rect& floor, const PlotView& plot, const SweepView& view,
+               bool withheld) {
   const Interaction in = Interact(ui, "sweep/plot", floor, kNoTab, view.limit.label);
-  if (in.clicked) {
+  if (in.clicked && !withheld) {
     const float shown = plot.x_min + (in.pointer.x - floor.x) / floor.w * (plot.x_max - plot.x_min);
     const double step = std::pow(10.0, view.limit.decimals);
     const double value = std::round(static_cast<double>(shown) * step) / step;
@@ -248,6 +249,13 @@ void DrawSweepPanel(const EngineSnapshot& snap, const Rect& rect, TuneState& sta
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const SweepView view = ViewOf(snap, state, ui);
+  if (view.sweep == nullptr) {
+    const Rect content = DrawPanelFrame(ui, rect, "Sweep: " + LowerFirst(view.limit.label));
+    DrawText(ui, s.body, p.text2, content.centre().x, content.centre().y,
+             snap.terrain->applied ? "Being worked out" : "No map yet", Align::kCentre);
+    DrawChoice(ui, rect, state);
+    return;
+  }
   const bool beside = rect.w > s.Px(600);  // no height for words below, but width
   constexpr float kStrip = 16;
   PlotView plot = PlotOf(s, view);
@@ -255,35 +263,19 @@ void DrawSweepPanel(const EngineSnapshot& snap, const Rect& rect, TuneState& sta
   plot.side = beside ? std::round(rect.w * 0.4f) : 0;
   const Rect floor = DrawPlot(ui, rect, plot, state.sweep_hover);
   DrawChoice(ui, rect, state);
-  std::vector<std::string> words;
-  if (view.sweep == nullptr) {
-    const bool map = snap.terrain->applied != nullptr;
-    DrawText(ui, s.body, p.text2, floor.centre().x, floor.centre().y,
-             map ? "Being worked out" : "No map yet", Align::kCentre);
-  } else {
-    DrawValues(ui, floor, plot, view);
-    DrawBest(ui, {floor.x, floor.bottom() + s.Px(22), floor.w, s.Px(kStrip)}, plot, view);
-    DrawText(ui, s.caption, p.text2, floor.x - s.Px(8), floor.bottom() + s.Px(22 + kStrip / 2),
-             "Best", Align::kRight);
-    TakePress(ui, floor, plot, view);
-    const auto& hover = state.sweep_hover.x;
-    const double at = hover ? static_cast<double>(*hover) / view.limit.shown_per_unit : 0;
-    words.push_back(hover ? ValueWords(view, at) : ChangeWords(view));
-    words.push_back(StateWords(view));
-  }
+  DrawValues(ui, floor, plot, view);
+  DrawBest(ui, {floor.x, floor.bottom() + s.Px(22), floor.w, s.Px(kStrip)}, plot, view);
+  DrawText(ui, s.caption, p.text2, floor.x - s.Px(8), floor.bottom() + s.Px(22 + kStrip / 2),
+           "Best", Align::kRight);
+  TakePress(ui, floor, plot, view, IsWithheld(state, ui));
+  const auto& hover = state.sweep_hover.x;
+  const std::string words =
+      hover ? ValueWords(view, static_cast<double>(*hover) / view.limit.shown_per_unit)
+            : ChangeWords(view);
   const float x = beside ? floor.right() + s.Px(24) : rect.x + s.Px(12);
-  const float width = rect.right() - s.Px(12) - x;
-  float y = beside ? rect.y + s.Px(46) : floor.bottom() + s.Px(22 + kStrip + 20);
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool last = i + 1 == words.size();
-    for (const std::string& line : WrapText(last ? s.caption : s.body, words[i], width)) {
-      if (y + s.Px(8) > rect.bottom()) {
-        break;
-      }
-      DrawText(ui, last ? s.caption : s.body, last ? p.text2 : p.text1, x, y, line);
-      y += s.Px(20);
-    }
-  }
+  const float y = beside ? rect.y + s.Px(46) : floor.bottom() + s.Px(22 + kStrip + 20);
+  DrawText(ui, s.body, p.text1, x, y, FitWords(s.body, words, rect.right() - s.Px(12) - x));
+  DrawText(ui, s.caption, p.text2, x, y + s.Px(20), StateWords(view));
 }
 
 }  // namespace palace

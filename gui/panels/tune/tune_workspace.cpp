@@ -113,6 +113,14 @@ void DrawNarrowCentre(const EngineSnapshot& snap, const Rect& c, TuneState& stat
   DrawNarrowTabs(snap, {c.x, c.bottom() - tabs, c.w, tabs}, state, ui);
 }
 
+/// A site that was lost just now makes of a preview what applies at once.
+void FollowApply(LimitsApply now, TuneState& state, const UiFrame& ui) {
+  constexpr double kToRead_s = 1.5;
+  if (std::exchange(state.told, now) != now && now == LimitsApply::kAtOnce) {
+    state.withheld_until_s = ui.ui_time_s + kToRead_s;
+  }
+}
+
 /// The limit that a person moved last is the one to ask about.
 void FollowHistory(TuneState& state) {
   const std::size_t done = state.history.done();
@@ -129,6 +137,10 @@ void FollowHistory(TuneState& state) {
 }
 
 }  // namespace
+
+bool IsWithheld(const TuneState& state, const UiFrame& ui) {
+  return ui.ui_time_s < state.withheld_until_s;
+}
 
 TuneFacts FactsOf(const EngineSnapshot& snap) {
   TuneFacts facts;
@@ -167,6 +179,7 @@ void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& 
   BeginProbe(state.probe);
   BeginPlots(state.sweep_hover);
   FollowHistory(state);
+  FollowApply(snap.session->limits_apply, state, ui);
   const bool narrow = IsNarrowBody(body, s);
   const float gap = s.Px(8), left = s.Px(narrow ? 344 : 416), right = s.Px(400);
   DrawLimitsPanel(snap, {body.x, body.y, left, body.h}, state, ui);

@@ -31,7 +31,9 @@ TEST(LoopRange, TurnsBackAtItsEndOnceAJump) {
   LoopRange loop;
   loop.Set(LoopEdge::kIn, 10);
   loop.Set(LoopEdge::kOut, 20);
-  EXPECT_EQ(loop.Shown(60), std::pair(10.0, 20.0));
+  EXPECT_TRUE(loop.Follow(At(20.1)).empty()) << "its ends are set, it is off";
+  EXPECT_EQ(loop.Shown(60), std::pair(10.0, 20.0)) << "and are shown";
+  loop.Toggle();
   EXPECT_TRUE(loop.Follow(At(19.9)).empty());
   EXPECT_EQ(TurnsTo(loop.Follow(At(20.1))), 10);
   EXPECT_TRUE(loop.Follow(At(20.2)).empty()) << "it is on its way";
@@ -43,19 +45,20 @@ TEST(LoopRange, LeavesAPausedReplayAndOneBeforeTheStretchAlone) {
   LoopRange loop;
   loop.Set(LoopEdge::kIn, 10);
   loop.Set(LoopEdge::kOut, 20);
+  loop.Toggle();
   SourceStatus paused = At(25);
   paused.paused = true;
   EXPECT_TRUE(loop.Follow(paused).empty());
   EXPECT_TRUE(loop.Follow(At(3)).empty());
   loop.Toggle();
   EXPECT_TRUE(loop.Follow(At(25)).empty());
-  EXPECT_FALSE(loop.Shown(60));
   loop.Toggle();
   EXPECT_EQ(TurnsTo(loop.Follow(At(25))), 10);
 }
 
 TEST(LoopRange, WithoutEndsItIsTheWholeFlight) {
   LoopRange loop;
+  EXPECT_FALSE(loop.Shown(60));
   loop.Toggle();
   EXPECT_EQ(loop.Shown(60), std::pair(0.0, 60.0));
   EXPECT_TRUE(loop.Follow(At(59.9)).empty());
@@ -76,6 +79,7 @@ TEST(LoopRange, AnEndOnTheWrongSideTakesTheOtherAway) {
 TEST(LoopRange, ASourceThatCannotJumpIsNotAsked) {
   LoopRange loop;
   loop.Set(LoopEdge::kOut, 20);
+  loop.Toggle();
   SourceStatus source = At(25);
   source.can_seek = false;
   EXPECT_TRUE(loop.Follow(source).empty());

@@ -28,11 +28,17 @@ TEST(SiteList, TheRowThatLeftTheMapIsTheOneThatSaysSo) {
         << window.ui.items.Find("site/Z")->text;
     EXPECT_FALSE(window.ui.items.Find("site/Z")->enabled);
     EXPECT_EQ(window.ui.items.Find("site/A")->text.rfind("A Confirmed", 0), 0U);
+    window.ui.MoveTo("panel/Sites");
     window.fly.sites.scroll = 1e6f;  // to the last
     window.ui.Frame(window.draw);
     const Item* last = window.ui.items.Find("site/D");
     EXPECT_TRUE(last->enabled);
     EXPECT_EQ(last->text.rfind("D Provisional", 0), 0U) << last->text;
+    window.ui.MoveTo("wave_off");
+    window.ui.Frame(window.draw);
+    window.ui.Frame(window.draw);
+    EXPECT_NE(window.ui.items.Find("site/Z"), nullptr) << "back in sight";
+    EXPECT_EQ(window.ui.items.Find("site/D"), nullptr);
   }
 }
 

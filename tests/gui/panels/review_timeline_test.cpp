@@ -248,5 +248,27 @@ TEST(ReviewWorkspace, LinesBreakWhereNothingWasMeasured) {
             1);
 }
 
+TEST(ReviewWorkspace, TellsHowLargeTheLogIsAndWhetherItIsWhole) {
+  FlightRecord record = fake::Record();
+  record.file_bytes = 1'930'000'000;
+  record.gaps = {{10, 12}, {40, 45}};
+  EngineSnapshot snap = fake::Replay(false);
+  snap.session.Edit().source.name = "/logs/2026-05-04_1432/flight.lcm";
+  const auto draw = [&](float width, float height) {
+    UiHarness ui(width, height);
+    ReviewState state;
+    ui.Frame(
+        [&](UiFrame& f) { DrawReviewWorkspace(snap, &record, BodyOf(width, height), state, f); });
+    ExpectTextsInPanels(ui.items);
+    return std::vector<bool>{HasText(ui.items, "2026-05-04_1432/flight.lcm"),
+                             HasText(ui.items, "1.9 GB"), HasText(ui.items, "whole, 2 gaps"),
+                             HasText(ui.items, "damaged, 2 gaps")};
+  };
+  EXPECT_EQ(draw(1920, 1080), (std::vector<bool>{true, true, true, false}));
+  snap.session.Edit().source.damage = "512 bytes unreadable";
+  EXPECT_EQ(draw(1920, 1080), (std::vector<bool>{true, true, false, true}));
+  EXPECT_TRUE(draw(1280, 720)[3]) << "that goes before all else";
+}
+
 }  // namespace
 }  // namespace palace

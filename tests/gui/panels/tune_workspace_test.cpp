@@ -367,7 +367,7 @@ TEST(TuneSweep, TellsWhereTheBestPlaceChangesForTheLimitMovedLast) {
   state.sweep = fake::RoughnessSweep(snap);
   ui.Frame(draw);
   EXPECT_EQ(state.swept.limit, "slad.max_deviation_m");
-  EXPECT_TRUE(HasText(ui.items, "Below 5.0 cm the best site moves from B to a new place."));
+  EXPECT_TRUE(HasText(ui.items, "Below 5.0 cm the best is a new place, not B."));
   EXPECT_TRUE(HasText(ui.items, "Map 1.5 s old"));
   EXPECT_TRUE(HasText(ui.items, "preview 6.0 cm"));
   EXPECT_TRUE(HasText(ui.items, "applied 10.0 cm"));
