@@ -199,6 +199,7 @@ Result<std::uint64_t> Fly(Source& source, FaultInjector& faults, VehicleServer* 
   while (true) {
     const auto bundle = source.Next(end.stop());
     if (!bundle) {
+      end.EndUnflown();
       end.Over();
       return bundle.error().code == ErrorCode::kEnd ? Result<std::uint64_t>(bundles)
                                                     : Result<std::uint64_t>(bundle.error());

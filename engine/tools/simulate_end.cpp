@@ -22,6 +22,13 @@ void SimulateEnd::Over() {
   over_now_.notify_all();
 }
 
+void SimulateEnd::EndUnflown() {
+  const std::lock_guard held(hand_);
+  if (!flown_ && flight_.stop_requested()) {
+    GiveUp();
+  }
+}
+
 void SimulateEnd::Asked() {
   flight_.request_stop();
   std::unique_lock held(hand_);

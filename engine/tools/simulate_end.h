@@ -30,6 +30,8 @@ class SimulateEnd {
   void Writes(ExportingSource* folder) { folder_ = folder; }
   void HaveFlown() { flown_ = true; }
 
+  /// Ends the program where a signal came before anything was flown: nothing is left behind.
+  void EndUnflown();
   /// The flight has ended by itself, or as it was asked to; what is still to write takes its time.
   void Over();
 
