@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/check.h"
+#include "engine/model/mission/mission_status.h"
 #include "engine/slad/hazards/hazard_maps.h"
 #include "engine/slad/sites/site_registry.h"
 
@@ -24,6 +25,7 @@ class Judge {
     }
     registry_.GoOnWith(places, request.decision->settings);
     registry_.GiveNoLetters();
+    mission_.refused_sites = request.refused;
   }
 
   SweptValue At(double value) {
@@ -38,12 +40,7 @@ class Judge {
     SweptValue swept{
         .value = value,
         .safe_area_m2 = hazards.safe_cells * map.geometry.cell_m * map.geometry.cell_m};
-    const auto& refused = request_.refused;
-    const auto best =
-        std::find_if(selection.sites.begin(), selection.sites.end(), [&](const LandingSite& site) {
-          return std::find(refused.begin(), refused.end(), site.id) == refused.end();
-        });
-    if (best != selection.sites.end()) {
+    if (const LandingSite* best = mission_.BestStanding(selection.sites)) {
       swept.best_id = best->id;
       swept.best = best->letter;
       swept.best_clear_m = best->safe_distance_m;
@@ -55,6 +52,7 @@ class Judge {
   const SweepRequest& request_;
   Settings settings_;
   SiteRegistry registry_;
+  MissionStatus mission_;  ///< that knows what was refused
   std::optional<TerrainFigures> figures_;
 };
 
@@ -98,8 +96,8 @@ LimitSweep SweepLimit(const SweepRequest& request, const std::function<bool()>& 
   Judge judge(request);
   for (const double value : EvenSteps(limit, in_force)) {
     if (!goes_on()) {
-      return {
-          .limit = limit.name, .map_time = sweep.map_time, .others = sweep.others, .values = {}};
+      sweep.values.clear();
+      return sweep;
     }
     sweep.values.push_back(judge.At(value));
   }

@@ -1,5 +1,6 @@
 #include "engine/tools/analyze.h"
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
