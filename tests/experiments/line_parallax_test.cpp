@@ -22,8 +22,8 @@ HoverView Hover(double height_m) {
   return view;
 }
 
-/// What ten frames of a hover (moves and pose errors as experiments draw them) make of a dark line
-/// 3 cm wide that runs along the baseline.
+/// What ten frames of a hover (moves and pose errors as experiments draw them) make of a line 3 cm
+/// wide that runs along the baseline, dark unless said.
 struct Told {
   int flagged = 0;  ///< cells
   int under = 0;    ///< of those straight below the line, in view
@@ -31,7 +31,8 @@ struct Told {
   /// all maps the highest counts.
   int with_its_height = 0;
 };
-Told LineAt(double up_m, const HoverView& view, GroundTexture texture, double angle_deg) {
+Told LineAt(double up_m, const HoverView& view, GroundTexture texture, double angle_deg,
+            double grey = 30) {
   World world;
   world.ground.texture = texture;
   const PinholeCamera camera =
@@ -44,9 +45,9 @@ Told LineAt(double up_m, const HoverView& view, GroundTexture texture, double an
   };
   std::uint64_t exposures = 0;
   const auto take = [&](const RigidTransform& X_WC, bool, double) -> Result<ImageU8> {
-    ImageF grey = DrawGrey(world, camera, X_WC, ground);
-    PaintWire({point(-30), point(30), 0.03, 30}, camera, X_WC, grey);
-    return Expose(grey, {view.noise_grey}, exposures++);
+    ImageF picture = DrawGrey(world, camera, X_WC, ground);
+    PaintWire({point(-30), point(30), 0.03, grey}, camera, X_WC, picture);
+    return Expose(picture, {view.noise_grey}, exposures++);
   };
   const auto frames = LookFromHover(view, camera, take, StereoSettings{}, kSeed);
   EXPECT_TRUE(frames.ok());
@@ -96,6 +97,15 @@ INSTANTIATE_TEST_SUITE_P(All, LinesAlongTheBaselineOver,
                          testing::Values(GroundTexture::kCloud, GroundTexture::kGravel,
                                          GroundTexture::kGrass, GroundTexture::kAsphalt),
                          [](const auto& texture) { return NameOf(texture.param); });
+
+/// No strip of it stands out enough by itself; that it goes on does.
+TEST(LinesAlongTheBaseline, AWireNearTheGroundsGreyIsSeenAndPaintOfThatGreyIsFreed) {
+  constexpr double kFaint = 85;
+  const Told wire = LineAt(3, Hover(12), GroundTexture::kAsphalt, 0, kFaint);
+  EXPECT_GE(wire.under, 15);
+  EXPECT_GE(wire.with_its_height, 0.8 * wire.under);
+  EXPECT_EQ(LineAt(0.001, Hover(12), GroundTexture::kAsphalt, 0, kFaint).flagged, 0);
+}
 
 /// Without motion nothing tells paint from a wire: both stay flagged, of unknown height.
 TEST(LinesAlongTheBaseline, AVehicleThatStandsStillTellsNothing) {

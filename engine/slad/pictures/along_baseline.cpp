@@ -27,7 +27,6 @@ constexpr double kNoStronger = 1.5;          // and at most
 constexpr double kAlone = 0.6;               // of it, what is found elsewhere
 constexpr double kNotAtGround = 0.8;         // of its contrast where it is found again
 // Without.
-constexpr int kLeastClearSum = 185;
 constexpr double kMostLevel_px = 2;  // over a strip
 constexpr double kLeastShare = 0.6;  // of the picture's width
 constexpr double kSure_sigmas = 3;   // … of the height that motion tells
@@ -132,10 +131,6 @@ std::optional<double> AboveGround(const ImageU8& left, const SceneGround& ground
   return aside_px / climb;
 }
 
-bool IsClearAndLevel(const LinePiece& piece) {
-  return piece.sum >= kLeastClearSum && std::abs(piece.to - piece.from) <= kMostLevel_px;
-}
-
 /// What the vehicle's own motion tells of a line that runs too nearly along the baseline.
 ThinHeight HeightByMotion(const LineParallax& parallax, const MarkStrips& strips, Chain& chain) {
   const auto above = parallax.Above(strips, chain);
@@ -157,6 +152,8 @@ ThinHeight HeightByMotion(const LineParallax& parallax, const MarkStrips& strips
 
 }  // namespace
 
+bool IsLevel(const LinePiece& piece) { return std::abs(piece.to - piece.from) <= kMostLevel_px; }
+
 std::vector<ThinPiece> FindAlongBaseline(const SceneView& view, const SceneGround& ground,
                                          const OlderViews& older, LineSums& lines) {
   const MarkStrips strips{Transposed(MarkRidges(*view.left)), true};
@@ -169,11 +166,11 @@ std::vector<ThinPiece> FindAlongBaseline(const SceneView& view, const SceneGroun
     }
   }
   std::vector<ThinPiece> found;
-  Chain clear;  // of lines whose height nothing tells
+  Chain level;  // of lines whose height the pair does not tell
   for (Chain& chain : Chains(all, kLeastPieces)) {
     const auto above_px = AboveGround(*view.left, ground, strips, chain);
     if (!above_px) {
-      std::copy_if(chain.begin(), chain.end(), std::back_inserter(clear), IsClearAndLevel);
+      std::copy_if(chain.begin(), chain.end(), std::back_inserter(level), IsLevel);
       continue;
     }
     for (LinePiece& piece : chain) {
@@ -182,7 +179,7 @@ std::vector<ThinPiece> FindAlongBaseline(const SceneView& view, const SceneGroun
     AddPieces(view, ground, strips, chain, ThinHeight::kKnown, found);
   }
   const auto least = static_cast<std::size_t>(std::ceil(kLeastShare * strips.count()));
-  std::vector<Chain> heightless = Chains(clear, std::max(least, kLeastPieces));
+  std::vector<Chain> heightless = Chains(level, std::max(least, kLeastPieces));
   if (heightless.empty()) {
     return found;
   }

@@ -3,17 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
+
+#include "engine/core/median.h"
 
 namespace palace {
 namespace {
 
 // The ground beside the line, rows and columns apart.
 constexpr int kBandFrom_px = 6, kBandTo_px = 26, kBandStep_px = 4;
-constexpr int kSearch_px = 6;  // what the pose may leave over
+constexpr int kSearch_px = 10;  // what the pose may leave over
 constexpr int kSearchStride_px = 20;
 constexpr int kIterations = 3;
 constexpr double kLeastCorrelation = 0.3;
+constexpr double kOutlier_medians = 3 * 1.4826;  // of sizes: 3 sigma
 constexpr std::size_t kLeastSamples = 100;
 
 }  // namespace
@@ -77,14 +81,15 @@ void LaidView::FindShift() {
       }
     }
   }
+  std::vector<double> off(samples.size());
   const auto left_over = [&](const Eigen::Vector2d& by) {
-    double sum = 0, square = 0;
-    for (const Laid& s : samples) {
-      const double off = GreyAt(old_, s.q + by) - s.grey;
-      sum += off;
-      square += off * off;
+    double mean = 0;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      off[k] = GreyAt(old_, samples[k].q + by) - samples[k].grey;
+      mean += off[k] / static_cast<double>(samples.size());
     }
-    return square - sum * sum / std::max(1.0, static_cast<double>(samples.size()));
+    return std::accumulate(off.begin(), off.end(), 0.0,
+                           [&](double sum, double one) { return sum + std::abs(one - mean); });
   };
   // Every second pixel, then those around the best.
   for (const int step : {2, 1}) {
@@ -125,37 +130,76 @@ std::vector<Laid> LaidView::Band(const PictureLine& line) const {
   return band;
 }
 
-/// Least squares on the grey: shift along and across, turn.
+/// A sample of the ground beside the line, where the fit lays it in the older picture.
+struct LaidView::OnOld {
+  double grey = 0, gx = 0, gy = 0;
+  double off = 0;  ///< grey, less the newer picture's
+};
+
+std::optional<std::vector<LaidView::OnOld>> LaidView::Sample(const std::vector<Laid>& band,
+                                                             const Registered& at) const {
+  const Eigen::Vector2d dx(1, 0), dy(0, 1);
+  std::vector<OnOld> samples;
+  samples.reserve(band.size());
+  for (const Laid& laid : band) {
+    const Eigen::Vector2d q = at(laid);
+    if (!IsInside(old_, q, 1)) {
+      return std::nullopt;
+    }
+    const double grey = GreyAt(old_, q);
+    samples.push_back({grey, (GreyAt(old_, q + dx) - GreyAt(old_, q - dx)) / 2,
+                       (GreyAt(old_, q + dy) - GreyAt(old_, q - dy)) / 2, grey - laid.grey});
+  }
+  return samples;
+}
+
+/// What stands over the ground, the line itself above all, lies elsewhere in the older picture: on
+/// faint ground it would draw the fit to where it is hidden.
+std::pair<double, double> LaidView::Usual(const std::vector<OnOld>& samples) {
+  std::vector<double> sizes;
+  sizes.reserve(samples.size());
+  for (const OnOld& sample : samples) {
+    sizes.push_back(sample.off);
+  }
+  const double middle = UpperMedian(sizes);
+  for (double& size : sizes) {
+    size = std::abs(size - middle);
+  }
+  return {middle, kOutlier_medians * UpperMedian(sizes)};
+}
+
+/// Least squares on the grey, outliers left out: shift along and across, turn.
 std::optional<LaidView::Registered> LaidView::Fit(const std::vector<Laid>& band) const {
   if (band.size() < kLeastSamples) {
     return std::nullopt;
   }
   Registered found;
   for (int iteration = 0;; ++iteration) {
+    const auto samples = Sample(band, found);
+    if (!samples) {
+      return std::nullopt;
+    }
+    const auto [middle, most_off] = Usual(*samples);
     // The fourth unknown is what the light changed.
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
-    double sum = 0, square = 0, product = 0, sum_old = 0, square_old = 0;
-    for (const Laid& laid : band) {
-      const Eigen::Vector2d q = found(laid);
-      if (!IsInside(old_, q, 1)) {
-        return std::nullopt;
+    double n = 0, sum = 0, square = 0, product = 0, sum_old = 0, square_old = 0;
+    for (std::size_t k = 0; k < band.size(); ++k) {
+      const OnOld& on_old = (*samples)[k];
+      if (std::abs(on_old.off - middle) > most_off) {
+        continue;
       }
-      const double grey = GreyAt(old_, q);
-      const double gx =
-          (GreyAt(old_, q + Eigen::Vector2d(1, 0)) - GreyAt(old_, q - Eigen::Vector2d(1, 0))) / 2;
-      const double gy =
-          (GreyAt(old_, q + Eigen::Vector2d(0, 1)) - GreyAt(old_, q - Eigen::Vector2d(0, 1))) / 2;
-      const Eigen::Vector4d by(gx, gy, gy * laid.along, 1);
+      const double grey = band[k].grey;
+      const Eigen::Vector4d by(on_old.gx, on_old.gy, on_old.gy * band[k].along, 1);
       normal += by * by.transpose();
-      right -= by * (grey - laid.grey);
-      sum += laid.grey;
-      square += laid.grey * laid.grey;
-      product += laid.grey * grey;
-      sum_old += grey;
-      square_old += grey * grey;
+      right -= by * on_old.off;
+      n += 1;
+      sum += grey;
+      square += grey * grey;
+      product += grey * on_old.grey;
+      sum_old += on_old.grey;
+      square_old += on_old.grey * on_old.grey;
     }
-    const double n = static_cast<double>(band.size());
     const Eigen::LDLT<Eigen::Matrix4d> solver(normal);
     if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 0)) {
       return std::nullopt;

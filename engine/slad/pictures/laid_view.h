@@ -1,15 +1,17 @@
 // A picture laid into an older one by the ground: where its pixels lie there by the poses, and what
 // the poses leave over beside a line, by the ground's texture. Internal to the SLAD room.
 //
-//   1  whole pixels for the whole picture: least squares of the grey over every shift
+//   1  whole pixels for the whole picture: least absolute difference of the grey over every shift,
+//      so that a line along a row of samples does not draw it
 //   2  beside a line, on both sides of it: shift along and across and turn, by least squares on the
-//      grey (Lucas & Kanade 1981)
+//      grey (Lucas & Kanade 1981) without its outliers: the line lies elsewhere in the older one
 //
 // Frames: pixels of the rectified left pictures, both of one camera.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/slad/pictures/line_pieces.h"
@@ -77,6 +79,12 @@ class LaidView {
  private:
   void FindShift();
   std::vector<Laid> Band(const PictureLine& line) const;
+  struct OnOld;
+  /// Nothing where one leaves the older picture.
+  std::optional<std::vector<OnOld>> Sample(const std::vector<Laid>& band,
+                                           const Registered& at) const;
+  /// The middle of what they are off by, and how far off it the ground's own are at most.
+  static std::pair<double, double> Usual(const std::vector<OnOld>& samples);
   std::optional<Registered> Fit(const std::vector<Laid>& band) const;
 
   const SceneView& view_;

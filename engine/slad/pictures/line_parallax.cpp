@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include <opencv2/core/utility.hpp>
 
@@ -23,6 +22,21 @@ constexpr double kLeastRows = 1e-3;  // a pixel of disparity
 
 double Square(double x) { return x * x; }
 
+/// Energy of a profile across a line: what the grey does over more than the line, a level and a
+/// slope, is the ground's.
+template <typename Grey>
+double LeftOver(Grey&& grey_at) {
+  double square = 0, sum = 0, slope = 0, arms = 0;
+  for (int k = -kAcross_px; k <= kAcross_px; ++k) {
+    const double grey = grey_at(static_cast<std::size_t>(k + kAcross_px));
+    square += Square(grey);
+    sum += grey;
+    slope += k * grey;
+    arms += k * k;
+  }
+  return square - Square(sum) / (2 * kAcross_px + 1) - Square(slope) / arms;
+}
+
 }  // namespace
 
 /// The new view and an older one.
@@ -32,7 +46,10 @@ class LineParallax::Pair {
        const OlderView& old)
       : laid_(view, ground, std::move(smooth), old),
         way_sigma_(std::hypot(view.range->pose->sigmas.position_m, old.pose.sigmas.position_m) /
-                   view.range->baseline_m) {}
+                   view.range->baseline_m),
+        turn_sigma_px_(
+            std::hypot(view.range->pose->sigmas.attitude_rad, old.pose.sigmas.attitude_rad) *
+            view.range->camera.fy_px) {}
 
   std::optional<Sight> Above(const MarkStrips& strips, const std::vector<LinePiece>& chain) const;
 
@@ -45,6 +62,7 @@ class LineParallax::Pair {
     };
     std::vector<Pixel> pixels;
     double rows_a_px = 0;
+    double rows_a_px_sigma = 0;
   };
   struct Aside {
     double rows = 0;
@@ -56,13 +74,15 @@ class LineParallax::Pair {
   std::optional<Aside> FindAgain(const LaidLine& line) const;
 
   LaidView laid_;
-  double way_sigma_;  ///< of the way between the views, over the baseline
+  double way_sigma_;      ///< of the way between the views, over the baseline
+  double turn_sigma_px_;  ///< of the turn between them
 };
 
 std::optional<LineParallax::Pair::LaidLine> LineParallax::Pair::LayLine(
     const PictureLine& line, const LaidView::Registered& registered) const {
   LaidLine laid;
   Eigen::Vector2d moved = Eigen::Vector2d::Zero();
+  double ground_px = 0;
   for (const Eigen::Vector2d& p : line.pixels) {
     const int x = static_cast<int>(std::lround(p.x())), y = static_cast<int>(std::lround(p.y()));
     const auto ground = laid_.GroundAt(x, y);
@@ -74,17 +94,28 @@ std::optional<LineParallax::Pair::LaidLine> LineParallax::Pair::LayLine(
     if (IsInside(laid_.old(), q, kMostAside_px + kAcross_px + 1)) {
       laid.pixels.push_back({x, y, q});
       moved += laid_.InOld(x, y, *ground + 1) - on_ground;
+      ground_px += *ground;
     }
   }
   if (laid.pixels.size() < kLeastPixels) {
     return std::nullopt;
   }
   moved /= static_cast<double>(laid.pixels.size());
+  ground_px /= static_cast<double>(laid.pixels.size());
   const Eigen::Vector2d run = laid.pixels.back().q - laid.pixels.front().q;
   if (std::abs(run.x()) < std::abs(run.y())) {
     return std::nullopt;
   }
-  laid.rows_a_px = moved.y() - moved.x() * run.y() / run.x();
+  // By as many rows as the pose leaves over the ground itself was laid wrong: the turn, or the way,
+  // whose part is that of its variance, and moves the line the more the nearer it is.
+  const double by_way_px = way_sigma_ * ground_px;
+  const double of_way =
+      Square(by_way_px) / std::max(1e-12, Square(by_way_px) + Square(turn_sigma_px_));
+  const double climb = run.y() / run.x();
+  const Eigen::Vector2d left_px = laid_.shift_px() + registered.left_px.head<2>();
+  laid.rows_a_px =
+      moved.y() - moved.x() * climb + of_way * (left_px.y() - left_px.x() * climb) / ground_px;
+  laid.rows_a_px_sigma = way_sigma_ * std::sqrt(1 - of_way);
   return std::abs(laid.rows_a_px) > kLeastRows ? std::optional(std::move(laid)) : std::nullopt;
 }
 
@@ -108,21 +139,11 @@ std::optional<LineParallax::Pair::Aside> LineParallax::Pair::FindAgain(const Lai
     }
   }
   // What is left of the profile where it is laid over the older one, r rows aside.
-  const double mean =
-      std::accumulate(now.begin(), now.end(), 0.0) / static_cast<double>(now.size());
-  double energy = 0;
-  for (const double grey : now) {
-    energy += Square(grey - mean);
-  }
+  const double energy = LeftOver([&](std::size_t k) { return now[k]; });
   std::array<double, 2 * kMostAside_px + 1> left{};
   for (int r = from - 1; r <= to + 1; ++r) {
-    double sum = 0, square = 0;
-    for (std::size_t k = 0; k < now.size(); ++k) {
-      const double off = old[static_cast<std::size_t>(r) + k] - now[k];
-      sum += off;
-      square += off * off;
-    }
-    left[static_cast<std::size_t>(r)] = square - sum * sum / static_cast<double>(now.size());
+    const auto row = static_cast<std::size_t>(r);
+    left[row] = LeftOver([&](std::size_t k) { return old[row + k] - now[k]; });
   }
   const auto best = std::min_element(left.begin() + from, left.begin() + to + 1);
   const int at = static_cast<int>(best - left.begin());
@@ -138,7 +159,7 @@ std::optional<LineParallax::Pair::Aside> LineParallax::Pair::FindAgain(const Lai
   if (!(bend > 0)) {
     return std::nullopt;
   }
-  const double noise2 = *best / static_cast<double>(now.size() - 2);
+  const double noise2 = *best / static_cast<double>(now.size() - 3);
   return Aside{at - kMostAside_px + (before - after) / (2 * bend), 2 * noise2 / bend};
 }
 
@@ -153,7 +174,7 @@ std::optional<LineParallax::Sight> LineParallax::Pair::Above(
   }
   const double found2 = aside->variance_px2 + Square(registered->sigma_px) + Square(kMatching_px);
   const double s2 = Square(laid->rows_a_px);
-  return Sight{aside->rows / laid->rows_a_px, found2 / s2, Square(way_sigma_) / s2};
+  return Sight{aside->rows / laid->rows_a_px, found2 / s2, Square(laid->rows_a_px_sigma) / s2};
 }
 
 LineParallax::LineParallax(const SceneView& view, const SceneGround& ground,

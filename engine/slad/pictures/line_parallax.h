@@ -10,9 +10,11 @@
 // the line (shift and turn by least squares on the grey, after Lucas & Kanade 1981); the grey
 // across the line, averaged along it, is found again in the older picture at r; above = r / s with
 // the variance of both. Views from different places are weighted by theirs. s is about the way
-// between the views, across the line, over the baseline (the pose's error of that way makes the
-// height err by as large a share): 0.2 m aside tells a wire 1 m over ground that is 15 m away. What
-// no view tells, or tells twice, has no height.
+// between the views, across the line, over the baseline: 0.2 m aside tells a wire 1 m over ground
+// that is 15 m away. The pose's error of that way makes the height err by as large a share, so the
+// way is corrected by what registration finds: ground of disparity d that was laid e rows wrong
+// adds w e / d to s, w the way's share in the variance of e, the rest being the turn's. What no
+// view tells, or tells twice, has no height.
 //
 // Frames: pixels of the rectified left pictures, all of one camera; poses as SLAD gets them.
 #pragma once

@@ -122,7 +122,8 @@ std::vector<ThinPiece> FindThinStructures(const SceneView& view, const SceneGrou
     std::vector<LinePiece> matched;
     for (int strip = 0; strip < strips->count(); ++strip) {
       for (LinePiece& piece : FindPieces(*strips, strip, kLeastSum, lines)) {
-        if (matcher.Match(*strips, piece)) {
+        const bool tells = !strips->transposed || !IsLevel(piece);
+        if (tells && matcher.Match(*strips, piece)) {
           matched.push_back(piece);
         }
       }
