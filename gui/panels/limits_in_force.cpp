@@ -58,7 +58,9 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
   const Arrival pose = ArrivalOf(snap, ChannelId::kVehiclePose, ui.silent_s);
   const bool old = pose.state == ChannelHealth::State::kStale;
   std::string fact = measured ? "All inside" : "Nothing measured";
-  if (snap.flight->mission.state == MissionState::kLanded) {
+  // On the ground nobody enforces any of them.
+  const bool landed = snap.flight->mission.state == MissionState::kLanded;
+  if (landed) {
     fact = "On the ground";
   } else if (snap.flight->mission.state == MissionState::kAborting) {
     fact = "Waved off";
@@ -73,7 +75,7 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
   const Rect below_head = PanelContent(rect, s);
   const Rect area{below_head.x, below_head.y + s.Px(4), below_head.w, below_head.h - s.Px(4)};
   const std::string beyond = RowsBeyondWords(RowsBeyond(area, rows.size(), s, narrow));
-  DrawPanelFrame(ui, rect, "Limits in force", {{beyond}, {fact, 0, old, old || over > 0}});
+  DrawPanelFrame(ui, rect, landed ? "Last figures" : "Limits in force", {{beyond}, {fact, 0, old, old || over > 0}});
   DrawScrolledRows(ui, "limit_rows", area, rows, narrow, scroll);
   if (old) {
     StaleVeil(s, Canvas(), area);

@@ -138,7 +138,8 @@ void DrawChecksColumn(const EngineSnapshot& snap, const Rect& column, bool narro
     y = DrawLines(ui, column, y,
                   std::string(SiteVerdictWord(newest.verdict)) + ": " + newest.reason, p.text1);
   }
-  if (newest.alternative && y + s.Px(38) <= column.bottom()) {
+  const bool may_serve = snap.flight->mission.state != MissionState::kLanded;
+  if (newest.alternative && may_serve && y + s.Px(38) <= column.bottom()) {
     const LandingSite& kept = *newest.alternative;
     DrawText(ui, s.caption, p.text2, column.x, y, "Alternative kept");
     LetterPlate(ui, {column.x + s.Px(10), y + s.Px(24)}, kept.letter, false);

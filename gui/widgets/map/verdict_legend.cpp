@@ -93,7 +93,7 @@ void NoPlaceSwatch(const Style& s, const Rect& swatch) {
 }
 
 constexpr std::array<LegendEntry, 3> kBrief = {
-    {{"Safe", SafeSwatch}, {"Over", OverSwatch}, {"No place", NoPlaceSwatch}}};
+    {{"Safe", SafeSwatch}, {"Unsafe", OverSwatch}, {"No room", NoPlaceSwatch}}};
 
 float EntryWidth(const Style& s, const LegendEntry& entry) {
   return s.Px(kSwatch + 6) + TextWidth(s.caption, entry.words);
