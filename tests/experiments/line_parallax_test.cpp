@@ -85,7 +85,7 @@ TEST_P(LinesAlongTheBaselineOver, AWireIsFoundWithItsHeightOnceTheVehicleHasMove
   struct Row {
     double height_m, up_m;
   };
-  for (const auto& [height_m, up_m] : {Row{8, 1}, Row{15, 1}, Row{15, 3}}) {
+  for (const auto& [height_m, up_m] : {Row{8, 1}, Row{12, 3}, Row{15, 1}, Row{15, 3}}) {
     SCOPED_TRACE(testing::Message() << height_m << " m, wire " << up_m << " m up");
     const Told told = LineAt(up_m, Hover(height_m), GetParam(), 0);
     EXPECT_GE(told.under, 15);

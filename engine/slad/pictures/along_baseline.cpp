@@ -20,7 +20,7 @@ constexpr double kMostClimb = 0.58;  // rows a column: 30 degrees
 constexpr int kLeastSum = 110;       // of 224
 constexpr std::size_t kLeastPieces = 4;
 // With its height.
-constexpr double kLeastAside_px = 1;
+constexpr double kRowsAgree_px = 0.3;        // of a rig, one sigma
 constexpr double kLeastContrast_grey = 2.5;  // sensor noise
 constexpr double kFoundAgain = 0.5;          // of the line's contrast in the left picture, at least
 constexpr double kNoStronger = 1.5;          // and at most
@@ -90,8 +90,8 @@ std::optional<Profile> ProfileOf(const ImageU8& picture, const SceneGround& grou
 
 /// Disparity of a chain beyond the ground's; nothing where it lies on the ground, is not found
 /// again or runs too nearly along the baseline.
-std::optional<double> AboveGround(const ImageU8& left, const SceneGround& ground,
-                                  const MarkStrips& strips, const Chain& chain) {
+std::optional<LineAbove> AboveGround(const ImageU8& left, const SceneGround& ground,
+                                     const MarkStrips& strips, const Chain& chain) {
   const double climb = ClimbOf(chain);
   const double reach_px = std::min(std::abs(climb) * kMostAbove_px, double{kMostAside_px});
   if (reach_px < kLeastAside_px) {
@@ -128,31 +128,34 @@ std::optional<double> AboveGround(const ImageU8& left, const SceneGround& ground
   if (std::abs(aside_px) < kLeastAside_px) {
     return std::nullopt;
   }
-  return aside_px / climb;
+  return LineAbove{aside_px / climb, kRowsAgree_px / std::abs(climb)};
 }
 
-/// What the vehicle's own motion tells of a line that runs too nearly along the baseline.
-ThinHeight HeightByMotion(const LineParallax& parallax, const MarkStrips& strips, Chain& chain) {
-  const auto above = parallax.Above(strips, chain);
-  if (!above) {
-    return ThinHeight::kUnknown;
-  }
-  const double reach_px = kSure_sigmas * above->sigma_px;
-  if (above->px <= reach_px) {
-    return above->px + reach_px < kLeastAbove_px ? ThinHeight::kOnGround : ThinHeight::kUnknown;
-  }
-  if (above->px < 2 * reach_px) {
-    return ThinHeight::kUnknown;  // that it stands is sure, how high is not
-  }
+bool IsLevel(const LinePiece& piece) { return std::abs(piece.to - piece.from) <= kMostLevel_px; }
+
+void SetAbove(Chain& chain, double above_px) {
   for (LinePiece& piece : chain) {
-    piece.above_px = above->px;
+    piece.above_px = above_px;
   }
-  return ThinHeight::kKnown;
+}
+
+/// Whether it stands above the ground, by what the vehicle's own motion tells.
+bool Stands(const LineAbove& above) { return above.px > kSure_sigmas * above.sigma_px; }
+/// … and how high.
+bool IsHeightTold(const LineAbove& above) { return above.px >= 2 * kSure_sigmas * above.sigma_px; }
+
+/// Of a line that runs too nearly along the baseline for the pair.
+ThinHeight HeightByMotion(const std::optional<LineAbove>& above, Chain& chain) {
+  if (above && IsHeightTold(*above)) {
+    SetAbove(chain, above->px);
+    return ThinHeight::kKnown;
+  }
+  const bool lies =
+      above && !Stands(*above) && above->px + kSure_sigmas * above->sigma_px < kLeastAbove_px;
+  return lies ? ThinHeight::kOnGround : ThinHeight::kUnknown;
 }
 
 }  // namespace
-
-bool IsLevel(const LinePiece& piece) { return std::abs(piece.to - piece.from) <= kMostLevel_px; }
 
 std::vector<ThinPiece> FindAlongBaseline(const SceneView& view, const SceneGround& ground,
                                          const OlderViews& older, LineSums& lines) {
@@ -165,27 +168,28 @@ std::vector<ThinPiece> FindAlongBaseline(const SceneView& view, const SceneGroun
       }
     }
   }
+  // Made when a line asks for it.
+  std::optional<LineParallax> made;
+  const auto by_motion = [&](const Chain& chain) {
+    const LineParallax& parallax = made ? *made : made.emplace(view, ground, older);
+    return parallax.Above(strips, chain);
+  };
   std::vector<ThinPiece> found;
   Chain level;  // of lines whose height the pair does not tell
   for (Chain& chain : Chains(all, kLeastPieces)) {
-    const auto above_px = AboveGround(*view.left, ground, strips, chain);
-    if (!above_px) {
+    const auto by_pair = AboveGround(*view.left, ground, strips, chain);
+    if (!by_pair) {
       std::copy_if(chain.begin(), chain.end(), std::back_inserter(level), IsLevel);
       continue;
     }
-    for (LinePiece& piece : chain) {
-      piece.above_px = *above_px;
-    }
+    const auto moved = by_motion(chain);
+    const bool better = moved && moved->sigma_px < by_pair->sigma_px && IsHeightTold(*moved);
+    SetAbove(chain, better ? moved->px : by_pair->px);
     AddPieces(view, ground, strips, chain, ThinHeight::kKnown, found);
   }
   const auto least = static_cast<std::size_t>(std::ceil(kLeastShare * strips.count()));
-  std::vector<Chain> heightless = Chains(level, std::max(least, kLeastPieces));
-  if (heightless.empty()) {
-    return found;
-  }
-  const LineParallax parallax(view, ground, older);
-  for (Chain& chain : heightless) {
-    const ThinHeight height = HeightByMotion(parallax, strips, chain);
+  for (Chain& chain : Chains(level, std::max(least, kLeastPieces))) {
+    const ThinHeight height = HeightByMotion(by_motion(chain), chain);
     AddPieces(view, ground, strips, chain, height, found);
   }
   return found;

@@ -9,25 +9,21 @@
 //
 // Thin lines of the left picture (line_marks.h, ridges) are chained over strips of 32 columns; the
 // grey across a chain is averaged along its whole length in both pictures, where the line of the
-// left one must be found again v rows aside and not at 0. A line of v below one row is not told
-// from paint: one that climbs less than a sixteenth (3.7 degrees) and spans most of the picture is
-// taken without its height, however faint, for nothing but a line goes on over so many strips;
-// others are not found (2 m above ground that is 15 m away: between 4 and 7 degrees, 1 m: to 15).
+// left one must be found again v rows aside and not at 0. Where the vehicle's own motion tells the
+// height better (line_parallax.h), it counts. A line of v below one row is not told from paint: one
+// that climbs less than a sixteenth (3.7 degrees) and spans most of the picture is taken without
+// its height, however faint, for nothing but a line goes on over so many strips; others are not
+// found (2 m above ground that is 15 m away: between 4 and 7 degrees, 1 m: to 15).
 #pragma once
 
 #include <vector>
 
-#include "engine/slad/pictures/line_pieces.h"
 #include "engine/slad/pictures/line_sums.h"
 #include "engine/slad/pictures/older_views.h"
 #include "engine/slad/pictures/scene_ground.h"
 #include "engine/slad/pictures/thin_piece.h"
 
 namespace palace {
-
-/// Whether a piece of transposed strips runs so nearly along the baseline that no disparity of it is
-/// seen.
-bool IsLevel(const LinePiece& piece);
 
 /// Lines within 30 degrees of the baseline, in a fixed order. `ground` must not be empty.
 std::vector<ThinPiece> FindAlongBaseline(const SceneView& view, const SceneGround& ground,

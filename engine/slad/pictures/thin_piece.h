@@ -18,6 +18,8 @@ inline constexpr double kLeastAbove_px = 1.5;
 
 /// A line along the baseline is looked for up to so many rows aside of itself.
 inline constexpr int kMostAside_px = 40;
+/// … and at least.
+inline constexpr double kLeastAside_px = 1;
 
 enum class ThinHeight { kKnown, kUnknown, kOnGround };
 

@@ -96,6 +96,12 @@ class PieceMatcher {
   std::vector<float> errors_;
 };
 
+/// Along the baseline any disparity fits: what was found must lie aside of where it is not.
+bool IsDisparitySeen(const MarkStrips& strips, const LinePiece& piece) {
+  const double climb = (piece.to - piece.from) / (kStrip_px - 1);
+  return !strips.transposed || std::abs(climb) * piece.above_px >= kLeastAside_px;
+}
+
 }  // namespace
 
 bool CanTellThinStructures(const SceneView& view, const SceneGround& ground) {
@@ -122,8 +128,7 @@ std::vector<ThinPiece> FindThinStructures(const SceneView& view, const SceneGrou
     std::vector<LinePiece> matched;
     for (int strip = 0; strip < strips->count(); ++strip) {
       for (LinePiece& piece : FindPieces(*strips, strip, kLeastSum, lines)) {
-        const bool tells = !strips->transposed || !IsLevel(piece);
-        if (tells && matcher.Match(*strips, piece)) {
+        if (matcher.Match(*strips, piece) && IsDisparitySeen(*strips, piece)) {
           matched.push_back(piece);
         }
       }
