@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <string>
 
 #include "engine/core/files.h"
+#include "engine/geodata/column_names.h"
 #include "engine/geodata/ply_file.h"
 #include "engine/geodata/text_lines.h"
 
@@ -42,22 +44,38 @@ Status Open(const std::filesystem::path& path, std::ifstream& file) {
               : Status(UnavailableError(path.string() + ": cannot be read; check its permissions"));
 }
 
-/// Calls take(numbers) for every line of at least `least` numbers. Comments, empty lines and
-/// headings before the first point are passed over.
+/// The last line before the first row that is none itself.
+struct Heading {
+  std::string line;
+  std::size_t number = 0;
+  bool is_comment = false;
+};
+
+/// Calls take(numbers, heading) for every line of at least `least` numbers, false: it is no row.
+/// Comments, empty lines and some headings before the first point are passed over.
 template <typename Take>
 Status ReadLines(const std::filesystem::path& path, std::ifstream& file, std::size_t least,
                  Take take) {
-  constexpr std::size_t kMostColumns = 16;
+  constexpr std::size_t kMostColumns = 16, kMostHeadings = 20;
   std::vector<double> numbers;
-  std::size_t columns = 0;
+  std::size_t columns = 0, headings = 0;
+  Heading heading, first_heading;
   std::string line;
   for (std::size_t n = 1; std::getline(file, line); ++n) {
     if (n == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) {
       line.erase(0, 3);
     }
     const auto first = line.find_first_not_of(" \t\r");
-    if (first == std::string::npos || std::strchr("#/%!", line[first]) != nullptr) {
+    if (first == std::string::npos) {
       continue;
+    }
+    if (std::strchr("#/%!", line[first]) != nullptr) {
+      heading = columns == 0 ? Heading{line, n, true} : heading;
+      continue;
+    }
+    if (const auto end = line.find('\r'); end < line.find_last_not_of(" \t\r")) {
+      return ErrorAtLine(path, n,
+                         "lines end with a carriage return alone; save them with line feeds");
     }
     if (line.find(';') != std::string::npos && line.find(',') != std::string::npos) {
       return ErrorAtLine(path, n,
@@ -70,8 +88,10 @@ Status ReadLines(const std::filesystem::path& path, std::ifstream& file, std::si
     }
     if (ParseNumbers(line, kMostColumns, numbers) < least) {
       const bool begins_a_number = std::strchr("0123456789+-.", line[first]) != nullptr;
-      if (columns == 0 && numbers.empty() && !begins_a_number) {
-        continue;  // a heading
+      if (columns == 0 && numbers.empty() && !begins_a_number && ++headings <= kMostHeadings) {
+        heading = {line, n, false};
+        first_heading = headings == 1 ? heading : first_heading;
+        continue;
       }
       return ErrorAtLine(path, n,
                          "expected " + std::string(least > 3 ? "x y z label" : "x y z") +
@@ -81,16 +101,35 @@ Status ReadLines(const std::filesystem::path& path, std::ifstream& file, std::si
       return ErrorAtLine(path, n, "the last line is cut off: " + QuotedLine(line));
     }
     columns = columns == 0 ? numbers.size() : columns;
-    take(numbers);
+    if (const Status taken = take(numbers, heading); !taken) {
+      return ErrorAtLine(path, heading.number, taken.error().message);
+    }
+  }
+  if (columns == 0 && headings > 1) {
+    return ErrorAtLine(path, first_heading.number,
+                       "expected x y z, found " + QuotedLine(first_heading.line));
   }
   return Ok();
 }
 
 Result<Points> ReadText(const std::filesystem::path& path, std::ifstream& file) {
   Points points;
-  const Status read = ReadLines(path, file, 3, [&](const std::vector<double>& numbers) {
-    points.emplace_back(numbers[0], numbers[1], numbers[2]);
-  });
+  PointColumns at = {0, 1, 2};
+  const Status read =
+      ReadLines(path, file, 3, [&](const std::vector<double>& numbers, const Heading& heading) {
+        if (points.empty() && heading.number > 0) {
+          const auto named = ColumnsNamed(heading.line, numbers.size(), heading.is_comment);
+          if (!named) {
+            return Status(named.error());
+          }
+          at = named->value_or(at);
+        }
+        const auto value = [&](std::size_t axis) {
+          return at[axis] < numbers.size() ? numbers[at[axis]] : std::nan("");
+        };
+        points.emplace_back(value(0), value(1), value(2));
+        return Ok();
+      });
   if (!read) {
     return read.error();
   }
@@ -150,8 +189,21 @@ Result<std::vector<Eigen::Vector3d>> ReadPointFile(const std::filesystem::path& 
   std::string start(4, '\0');
   file.read(start.data(), 4);
   const bool ply = start.rfind("ply", 0) == 0;
-  if (start == "LASF") {
-    return InvalidError(path.string() + " is a LAS file; convert it to text of x y z, or to PLY");
+  using std::string_literals::operator""s;
+  const struct {
+    std::string start;
+    const char* what;
+  } others[] = {{"LASF", "a LAS file; convert it to text of x y z, or to PLY"},
+                {"II*\0"s, "a TIFF; an elevation model is given with --elevation"},
+                {"MM\0*"s, "a TIFF; an elevation model is given with --elevation"},
+                {"\x1F\x8B", "packed by gzip; unpack it first"},
+                {"PK\3\4", "packed as ZIP; unpack it first"},
+                {"\xFF\xFE", "UTF-16 text; save it as UTF-8"},
+                {"\xFE\xFF", "UTF-16 text; save it as UTF-8"}};
+  for (const auto& other : others) {
+    if (start.rfind(other.start, 0) == 0) {
+      return InvalidError(path.string() + " is " + other.what);
+    }
   }
   file.clear();
   file.seekg(0);
@@ -169,9 +221,11 @@ Result<std::vector<LabelledPoint>> ReadLabelledPoints(const std::filesystem::pat
     return open.error();
   }
   std::vector<LabelledPoint> points;
-  const Status read = ReadLines(path, file, 4, [&](const std::vector<double>& numbers) {
-    points.push_back({{numbers[0], numbers[1], numbers[2]}, numbers[3] == 1});
-  });
+  const Status read =
+      ReadLines(path, file, 4, [&](const std::vector<double>& numbers, const Heading&) {
+        points.push_back({{numbers[0], numbers[1], numbers[2]}, numbers[3] == 1});
+        return Ok();
+      });
   if (!read) {
     return read.error();
   }

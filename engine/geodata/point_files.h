@@ -10,8 +10,9 @@
 
 namespace palace {
 
-/// Points as the file has them: x east, y north, z up. Further columns are ignored. Errors name
-/// file and line.
+/// Points as the file has them: x east, y north, z up, by the names of the line above the first row
+/// (column_names.h), else the first three columns. Further columns are ignored. Errors name file
+/// and line.
 Result<std::vector<Eigen::Vector3d>> ReadPointFile(const std::filesystem::path& path);
 
 /// A point with what a survey's editor says it is.

@@ -137,6 +137,7 @@ Result<LogDescription> DescribeLog(const std::filesystem::path& log, bool verify
     ChannelSummary row;
     Timestamp first;
     Timestamp last;
+    std::uint64_t at_first = 0;  ///< a bundle's events have one time
   };
   std::map<std::string, Span> spans;
   LogDescription description;
@@ -144,7 +145,11 @@ Result<LogDescription> DescribeLog(const std::filesystem::path& log, bool verify
   description.first = description.last = StartOf(*index);
   for (const LogEntry& entry : index->entries) {
     Span& span = spans[index->channels[entry.channel]];
-    span.first = span.row.events == 0 ? entry.time : std::min(span.first, entry.time);
+    if (span.row.events == 0 || entry.time < span.first) {
+      span.first = entry.time;
+      span.at_first = 0;
+    }
+    span.at_first += entry.time == span.first ? 1 : 0;
     span.last = span.row.events == 0 ? entry.time : std::max(span.last, entry.time);
     ++span.row.events;
     span.row.bytes += entry.length;
@@ -156,7 +161,8 @@ Result<LogDescription> DescribeLog(const std::filesystem::path& log, bool verify
   for (auto& [name, span] : spans) {
     span.row.name = name;
     const double span_s = SecondsBetween(span.first, span.last);
-    span.row.rate_hz = span_s > 0 ? static_cast<double>(span.row.events - 1) / span_s : 0;
+    span.row.rate_hz =
+        span_s > 0 ? static_cast<double>(span.row.events - span.at_first) / span_s : 0;
     description.channels.push_back(span.row);
   }
   const std::vector<BundleMark> bundles = FindBundles(*file, *index, channels);
@@ -181,6 +187,9 @@ Result<CopiedLog> RepairLog(const std::filesystem::path& log, const std::filesys
 
 Result<CopiedLog> CutLog(const std::filesystem::path& log, const std::filesystem::path& out,
                          double from_s, double to_s) {
+  if (!(from_s >= 0)) {
+    return UsageError("--from-s " + NumberText(from_s) + ": a log begins at 0 s");
+  }
   if (!(from_s <= to_s)) {
     return UsageError("the cut runs from " + NumberText(from_s) + " s to " + NumberText(to_s) +
                       " s; give --from-s below --to-s");

@@ -26,6 +26,24 @@ fs::path PartialName(const fs::path& folder, std::string_view table) {
   return folder / (std::string(table) + ".partial");
 }
 
+/// Maps that an earlier run's table lists: the new table would say nothing of them.
+void RemoveMapsOf(const fs::path& folder) {
+  std::ifstream table(folder / "maps.csv");
+  std::string row;
+  std::getline(table, row);
+  while (std::getline(table, row)) {
+    const std::string stem = row.substr(0, row.find(','));
+    std::error_code ignored;
+    for (const fs::directory_entry& file : fs::directory_iterator(folder, ignored)) {
+      const std::string name = file.path().filename().string();
+      if (stem.rfind("map_", 0) == 0 && name.rfind(stem + "_", 0) == 0 &&
+          file.path().extension() == ".tif") {
+        fs::remove(file.path(), ignored);
+      }
+    }
+  }
+}
+
 /// What the pipeline says of a pass that made no map; empty: it was not asked for one.
 std::string WhyNoMap(const EngineSnapshot& snapshot, bool new_pair) {
   const SessionPart& session = *snapshot.session;
@@ -72,6 +90,7 @@ Result<RerunFiles> RerunFiles::Open(const fs::path& folder, const MapTimes& maps
   if (const Status made = MakeFolder(folder); !made) {
     return made.error();
   }
+  RemoveMapsOf(folder);
   RerunFiles files(folder, maps);
   const std::array streams = {&files.sites_, &files.decisions_, &files.maps_};
   for (std::size_t i = 0; i < kTables.size(); ++i) {

@@ -35,7 +35,7 @@ Result<MapTimes> ParseMapTimes(const std::string& text);
 
 class RerunFiles {
  public:
-  /// Makes the folder. The tables are written under other names and moved by Finish, so that a run
+  /// Makes the folder; maps that an earlier run's table lists are removed. The tables are written under other names and moved by Finish, so that a run
   /// that was broken off leaves none that looks whole. Errors name the file.
   static Result<RerunFiles> Open(const std::filesystem::path& folder, const MapTimes& maps);
 

@@ -122,13 +122,21 @@ Status Analyze(const Options& options) {
     std::printf("cell %d,%d: %s\n", cell->row, cell->col, o.explained.back().verdict.c_str());
   }
   progress.Begin("writing (3 of 3)");
-  const bool replaces = std::filesystem::exists(std::filesystem::path(options.out) / "site.json");
+  const auto is_there = [&](const char* name) {
+    std::error_code none;
+    return std::filesystem::exists(std::filesystem::path(options.out) / name, none);
+  };
+  const bool replaces = is_there("site.json");
+  const bool replaces_other = is_there("report.html") || is_there("elevation.tif");
   if (const Status done = PublishAnalysis(o, options.out); !done) {
     return done;
   }
   progress.End();
   if (replaces) {
     std::cerr << "palacectl: warning: an earlier analysis in " << options.out << " was replaced\n";
+  } else if (replaces_other) {
+    std::cerr << "palacectl: warning: report.html or elevation.tif in " << options.out
+              << " were of something else and were replaced\n";
   }
   for (const std::string& warning : o.input.warnings) {
     std::cerr << "palacectl: warning: " << warning << '\n';

@@ -94,6 +94,9 @@ Result<int> Rerun(const RerunOptions& options) {
   if (!settings) {
     return settings.error();
   }
+  std::error_code none;
+  const bool replaces =
+      std::filesystem::exists(std::filesystem::path(options.out) / "decisions.csv", none);
   Result<RerunFiles> files = RerunFiles::Open(options.out, *maps);
   if (!files) {
     return files.error();
@@ -118,6 +121,9 @@ Result<int> Rerun(const RerunOptions& options) {
   }
   if (const Status done = files->Finish(); !done) {
     return done.error();
+  }
+  if (replaces) {
+    std::cerr << "palacectl: warning: an earlier rerun in " << options.out << " was replaced\n";
   }
   Print(options, files->counts(), settings->redecide_with.has_value());
   const std::string damage = source->Status().damage;

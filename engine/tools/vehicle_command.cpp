@@ -85,6 +85,9 @@ void PrintSensors(const VehicleDescription& v) {
 }
 
 int ShowVehicle(const VehicleOptions& options) {
+  if (options.vehicle.empty() && !options.write.empty()) {
+    return Fail(UsageError("--write: which vehicle? Name one of " + Joined(VehicleNames())));
+  }
   if (options.vehicle.empty()) {
     for (const std::string& name : VehicleNames()) {
       std::printf("%-12s %s\n", name.c_str(), LoadVehicle(name).value().name.c_str());

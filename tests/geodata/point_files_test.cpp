@@ -42,6 +42,63 @@ TEST_F(PointFiles, EastNorthUpInEverySpelling) {
   EXPECT_EQ(*points, expected);
 }
 
+// The same three points under every heading; no axis is taken for another, and no foot for a metre.
+TEST_F(PointFiles, ColumnsAreTakenByTheirNames) {
+  const std::vector<Eigen::Vector3d> expected = {{1, 2, 3}, {4, 5, 6}, {7, 8, 10}};
+  for (const std::string text :
+       {"Northing,Easting,Height\n2,1,3\n5,4,6\n8,7,10\n", "y x z\n2 1 3\n5 4 6\n8 7 10\n",
+        "id,x,y,z\n11,1,2,3\n12,4,5,6\n13,7,8,10\n",
+        "z [m];y [m];x [m];intensity\n3;2;1;9\n6;5;4;9\n10;8;7;9\n",
+        "Elevation (m) East North\n3 1 2\n6 4 5\n10 7 8\n",
+        "//id x y z\n11 1 2 3\n12 4 5 6\n13 7 8 10\n", "\"x\",\"y\",\"z\"\n1,2,3\n4,5,6\n7,8,10\n",
+        // Prose, and names that say nothing of three columns.
+        "Survey of the north field\n1 2 3\n4 5 6\n7 8 10\n", "a b c\n1 2 3\n4 5 6\n7 8 10\n",
+        "# north of the road\n1 2 3 4\n4 5 6 4\n7 8 10 4\n",
+        "x y z class\n1 2 3 grass\n4 5 6 road\n7 8 10 road\n"}) {
+    Write(text);
+    const auto points = ReadPointFile(path_);
+    ASSERT_TRUE(points.ok()) << text << points.error().message;
+    EXPECT_EQ(*points, expected) << text;
+  }
+}
+
+TEST_F(PointFiles, WhatHeadingsMakeDoubtfulIsRefused) {
+  std::string many;
+  for (int i = 0; i < 21; ++i) {
+    many += "P" + std::to_string(i) + " 1 2 3\n";
+  }
+  const struct {
+    std::string text;
+    const char* said;
+  } rows[] = {
+      {"north,east,down\n1,2,3\n4,5,6\n7,8,9\n",
+       ":1: column 3 is named \"down\"; heights must count upwards: write z = -down"},
+      {"x,y,depth\n1,2,3\n4,5,6\n7,8,9\n", ":1: column 3 is named \"depth\"; heights must"},
+      {"# note\nx,y,Height (ft)\n1,2,3\n4,5,6\n7,8,9\n",
+       ":2: column 3 is named \"height\" in ft; metres are expected"},
+      {"x,y,x\n1,2,3\n4,5,6\n7,8,9\n", ":1: no column is named z or height"},
+      {"x,east,y,z\n1,2,3,4\n4,5,6,4\n7,8,9,4\n",
+       ":1: column 2 is named \"east\", column 1 alike; which is x or east?"},
+      {"Rechtswert Hochwert Hoehe Farbe\n1 2 3 4\n4 5 6 4\n7 8 9 4\n",
+       ":1: no column is named x or east; name the columns x, y and z, or leave the heading out"},
+      {"a b c x y z\n1 2 3 4\n4 5 6 4\n7 8 9 4\n", ":1: column 5, \"y\", has no number in the"},
+      {many + "1 2 3\n4 5 6\n7 8 9\n", ":21: expected x y z, found \"P20 1 2 3\""},
+      {"P1 1 2 3\nP2 4 5 6\n", ":1: expected x y z, found \"P1 1 2 3\""},
+      {"1 2 3\r4 5 6\r7 8 9\r", ":1: lines end with a carriage return alone"},
+      {std::string("II*\0 and more", 13),
+       " is a TIFF; an elevation model is given with --elevation"},
+      {"\x1F\x8B and more", " is packed by gzip; unpack it first"},
+      {"\xFF\xFEx\0", " is UTF-16 text; save it as UTF-8"},
+  };
+  for (const auto& row : rows) {
+    Write(row.text);
+    const auto points = ReadPointFile(path_);
+    ASSERT_FALSE(points.ok()) << row.text;
+    EXPECT_EQ(points.error().message.find(path_.string() + row.said), 0u)
+        << points.error().message << "\n instead of " << row.said;
+  }
+}
+
 TEST_F(PointFiles, LabelsTellGroundFromObjects) {
   Write("1 2 3 1\n4 5 6 0\n");
   const auto points = ReadLabelledPoints(path_);

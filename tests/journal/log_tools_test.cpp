@@ -21,7 +21,8 @@ TEST_F(ReplayTest, CutKeepsWholeBundlesAndReplays) {
 
 TEST_F(ReplayTest, CutOfATimeThatTheLogHasNotIsRefusedAndLeavesNothing) {
   const std::filesystem::path out = folder_ / "cut.lcm";
-  for (const auto& [from_s, to_s] : {std::pair(100.0, 200.0), {-5.0, -1.0}, {0.351, 0.352}}) {
+  for (const auto& [from_s, to_s] :
+       {std::pair(100.0, 200.0), {-5.0, -1.0}, {-5.0, 0.5}, {0.351, 0.352}}) {
     const auto cut = CutLog(flight_.log, out, from_s, to_s);
     ASSERT_FALSE(cut.ok()) << from_s;
     EXPECT_EQ(cut.error().code, ErrorCode::kUsage);
@@ -61,6 +62,23 @@ TEST_F(ReplayTest, DescribesALogAndItsHealth) {
     found = found || (row.name == "CAMERA_LEFT" && row.events == 12);
   }
   EXPECT_TRUE(found);
+}
+
+/// A simulated flight records ten readings of an IMU of 100 Hz with one time.
+TEST_F(JournalTest, TheRateOfEventsThatCameTogetherIsThatOfTheChannel) {
+  const std::filesystem::path log = folder_ / "bursts.lcm";
+  auto writer = LogWriter::Create(log);
+  for (int burst = 0; burst < 4; ++burst) {
+    for (int i = 0; i < 10; ++i) {
+      ASSERT_TRUE(
+          writer->Write(EncodeEvent({{1'000'000 + 100'000 * burst}, EventKind::kState, "x"}, {})));
+    }
+  }
+  ASSERT_TRUE(writer->Close().ok());
+  const auto described = DescribeLog(log, false);
+  ASSERT_TRUE(described.ok());
+  ASSERT_EQ(described->channels.size(), 1u);
+  EXPECT_DOUBLE_EQ(described->channels[0].rate_hz, 100);
 }
 
 /// One byte of a message differs under a sidecar that fits: nothing but the checksum tells.

@@ -143,16 +143,28 @@ std::vector<BadMap> BadMaps() {
        },
        "site", "site"},
       {"kilometre_cells", [] { return FlatMap(30, 30, 1000); },
-       "cells of 1e+03 m, limits 0.001 m to one lander, 3.6 m",
-       "cells of 1e+03 m, limits 0.001 m to one lander, 3.6 m"},
+       "cells of 1e+03 m, limits 0.001 m to one lander, 3.6 m: too few points, or too large an "
+       "area for the map's rows "
+       "and columns",
+       "cells of 1e+03 m, limits 0.001 m to one lander, 3.6 m: too few points, or too large an "
+       "area for the map's rows "
+       "and columns"},
       {"widest_cells", [] { return FlatMap(30, 30, 1e9); },
-       "cells of 1e+09 m, limits 0.001 m to one lander, 3.6 m",
-       "cells of 1e+09 m, limits 0.001 m to one lander, 3.6 m"},
+       "cells of 1e+09 m, limits 0.001 m to one lander, 3.6 m: too few points, or too large an "
+       "area for the map's rows "
+       "and columns",
+       "cells of 1e+09 m, limits 0.001 m to one lander, 3.6 m: too few points, or too large an "
+       "area for the map's rows "
+       "and columns"},
       {"millimetre_cells", [] { return FlatMap(60, 60, 1e-3); }, "100 % too near a hazard",
        "100 % too near a hazard"},
       {"nanometre_cells", [] { return FlatMap(60, 60, 1e-9); },
-       "cells of 1e-09 m, limits 0.001 m to one lander, 3.6 m",
-       "cells of 1e-09 m, limits 0.001 m to one lander, 3.6 m"},
+       "cells of 1e-09 m, limits 0.001 m to one lander, 3.6 m: too few points, or too large an "
+       "area for the map's rows "
+       "and columns",
+       "cells of 1e-09 m, limits 0.001 m to one lander, 3.6 m: too few points, or too large an "
+       "area for the map's rows "
+       "and columns"},
   };
 }
 

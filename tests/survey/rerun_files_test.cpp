@@ -165,6 +165,30 @@ TEST_F(Rerun, ABrokenRunLeavesNoTableThatLooksWhole) {
   }
 }
 
+TEST_F(Rerun, MapsOfAnEarlierRunGoWithItsTableAndNothingElseDoes) {
+  const auto tifs = [&] {
+    std::set<std::string> names;
+    for (const auto& file : std::filesystem::directory_iterator(folder_)) {
+      if (file.path().extension() == ".tif") {
+        names.insert(file.path().filename().string());
+      }
+    }
+    return names;
+  };
+  const auto run = [&](const char* maps) {
+    RerunFiles files = Open(maps);
+    MapAt(0);
+    ASSERT_TRUE(files.Add(Seen(0), nullptr).ok());
+    ASSERT_TRUE(files.Finish().ok());
+  };
+  run("last");
+  EXPECT_FALSE(tifs().empty());
+  std::ofstream(folder_ / "map_of_mine.tif") << "mine";
+  RerunFiles none = std::move(RerunFiles::Open(folder_, {})).value();
+  ASSERT_TRUE(none.Finish().ok());
+  EXPECT_EQ(tifs(), std::set<std::string>{"map_of_mine.tif"});
+}
+
 TEST(MapTimes, AreReadAsAPersonWritesThem) {
   EXPECT_TRUE(ParseMapTimes("last")->last);
   EXPECT_EQ(ParseMapTimes("every 5")->every_s, 5);

@@ -47,7 +47,8 @@ std::string ObjectionTo(const ElevationMap& map, const SladSettings& settings) {
   if (!map.height_m.empty() &&
       !(g.cell_m >= kSmallestCell_m && g.cell_m <= settings.lander.base_size_m)) {
     return "cells of " + Number(g.cell_m) + " m, limits " + Number(kSmallestCell_m) +
-           " m to one lander, " + Number(settings.lander.base_size_m) + " m";
+           " m to one lander, " + Number(settings.lander.base_size_m) +
+           " m: too few points, or too large an area for the map's rows and columns";
   }
   return {};
 }
