@@ -23,8 +23,8 @@ namespace {
 constexpr int kLeastSide = 3;
 constexpr int kMostSide = 200;
 constexpr int kLeastPoints = 12;
-constexpr double kLeastPitch_m = 1e-4;
-constexpr double kMostPitch_m = 100;
+constexpr double kLeastPitch_m = 0.001;  // boards to hold: a pitch in millimetres lies outside
+constexpr double kMostPitch_m = 1;
 constexpr double kLeastDot = 0.1;   // of the pitch
 constexpr double kMostDot = 0.75;   // a bright ring must remain to measure the background
 constexpr double kLeastMark = 1.2;  // of the dots' diameter, to be told from them

@@ -6,11 +6,14 @@
 #include <string>
 
 #include "engine/camera/cahvor.h"
+#include "engine/core/text.h"
 
 namespace palace {
 namespace {
 
 constexpr double kSteepest_rad = 75 * std::numbers::pi / 180;  // 15 degrees off the image plane
+// Beyond it the common image plane is too steep for both.
+constexpr double kFarthestApart_rad = 2 * kSteepest_rad;
 
 /// The image plane of a camera: unit normal, directions of rows and columns, and the pixel on the
 /// normal. Rows and columns are perpendicular only if theta is -90 degrees; along a row y stays, so
@@ -210,6 +213,13 @@ Result<AlignedPair> AlignPair(const CameraModel& left, const CameraModel& right,
   }
   const ImagePlane a = PlaneOf(left);
   const ImagePlane b = PlaneOf(right);
+  const double apart_rad = std::atan2(a.normal.cross(b.normal).norm(), a.normal.dot(b.normal));
+  if (!(apart_rad <= kFarthestApart_rad)) {
+    return InvalidError(WithNumbers(
+        "the cameras look in nearly opposite directions: their axes are %.1f degrees apart, the "
+        "limit is %.0f; are both poses told in one frame?",
+        apart_rad * 180 / std::numbers::pi, kFarthestApart_rad * 180 / std::numbers::pi));
+  }
   const Eigen::Vector3d mean_normal = a.normal + b.normal;
   if (!(mean_normal.cross(baseline.normalized()).norm() > 1e-6)) {
     return InvalidError("the cameras look along their baseline; such a pair has no common rows");

@@ -52,7 +52,8 @@ struct AlignmentOptions {
 
 /// Aligns a pair whose models share the frame F and the unit of length. Each camera's own size
 /// counts. Refuses cameras without a size (kAverage needs none) or baseline, axes along the
-/// baseline, picture borders without a ray, and views that do not overlap.
+/// baseline or more than 150 degrees apart, picture borders without a ray, and views that do not
+/// overlap.
 Result<AlignedPair> AlignPair(const CameraModel& left, const CameraModel& right,
                               const AlignmentOptions& options = {});
 

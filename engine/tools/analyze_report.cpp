@@ -21,26 +21,30 @@ std::string Against(const Figure& figure, double shown_per_unit, double limit, c
   return value + unit + WithNumbers(", room %.2f ", limit - figure.value * shown_per_unit) + unit;
 }
 
+/// Without the sign of what is nothing.
+double Hundredths(double value) { return std::round(100 * value) / 100 + 0.0; }
+
 std::vector<std::vector<std::string>> SiteRows(const SiteSelection& selection,
                                                const SladSettings& slad) {
   std::vector<std::vector<std::string>> rows;
   for (const LandingSite& site : selection.sites) {
     const bool modern = slad.mode == SladMode::kModern;
-    rows.push_back(
-        {site.letter,
-         WithNumbers("%.2f N, %.2f E, %.2f up", site.p_WS.x(), site.p_WS.y(), site.height_m.value),
-         WithNumbers("%.2f m to the nearest hazard, %.2f m needed", site.safe_distance_m,
-                     site.clear_radius_m),
-         Against(site.slope_rad, kDegPerRad, slad.limits.max_slope_deg, "°"),
-         Against(site.roughness_m, 1, slad.limits.max_deviation_m, "m"),
-         modern ? Against(site.step_m, 1, slad.limits.max_step_m, "m") : "not in thesis mode",
-         modern ? WithNumbers("%.4f, limit %.4f", site.safe_probability,
-                              slad.limits.min_safe_probability)
-                : "not in thesis mode",
-         site.flags == 0 ? "none" : FlagWords(site.flags),
-         StandingWord(StandingOf(site, slad)) +
-             (site.confirmed ? "" : ": " + WhyProvisional(site, slad)),
-         site.reason});
+    rows.push_back({site.letter,
+                    WithNumbers("%.2f N, %.2f E, %.2f up", Hundredths(site.p_WS.x()),
+                                Hundredths(site.p_WS.y()), Hundredths(site.height_m.value)),
+                    WithNumbers("%.2f m to the nearest hazard, %.2f m needed", site.safe_distance_m,
+                                site.clear_radius_m),
+                    Against(site.slope_rad, kDegPerRad, slad.limits.max_slope_deg, "°"),
+                    Against(site.roughness_m, 100, 100 * slad.limits.max_deviation_m, "cm"),
+                    modern ? Against(site.step_m, 100, 100 * slad.limits.max_step_m, "cm")
+                           : "not in thesis mode",
+                    modern ? WithNumbers("%.4f, limit %.4f", site.safe_probability,
+                                         slad.limits.min_safe_probability)
+                           : "not in thesis mode",
+                    site.flags == 0 ? "none" : FlagWords(site.flags),
+                    StandingWord(StandingOf(site, slad)) +
+                        (site.confirmed ? "" : ": " + WhyProvisional(site, slad)),
+                    site.reason});
   }
   return rows;
 }

@@ -22,6 +22,12 @@ bool IsCahv(const CameraModel& model) {
 }  // namespace
 
 int RunCameraAlign(const CameraOptions& options) {
+  const std::filesystem::path folder = options.out;
+  for (const char* name : {"left.cahv", "right.cahv"}) {
+    if (const Status apart = CheckNoInput(folder / name, {options.left, options.right}); !apart) {
+      return FailCamera(apart.error());
+    }
+  }
   const auto left = ReadCameraModel(options.left, options, StereoSide::kLeft);
   if (!left) {
     return FailCamera(left.error());
@@ -57,10 +63,9 @@ int RunCameraAlign(const CameraOptions& options) {
   if (const Status made = MakeFolder(options.out); !made) {
     return FailCamera(made.error());
   }
-  const std::filesystem::path folder = options.out;
   for (const auto& [name, model] :
        {std::pair{"left.cahv", &pair->left}, {"right.cahv", &pair->right}}) {
-    if (const Status written = WriteCameraText((folder / name).string(), CahvorToText(*model));
+    if (const Status written = WriteCameraModel((folder / name).string(), CahvorToText(*model));
         !written) {
       return FailCamera(written.error());
     }

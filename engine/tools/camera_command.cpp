@@ -124,6 +124,16 @@ Status WriteCameraText(const std::string& path, const std::string& text) {
                                         "; choose a place you may write to and that has room"));
 }
 
+Status WriteCameraModel(const std::string& path, const std::string& text) {
+  std::error_code none;
+  const bool replaces = std::filesystem::is_regular_file(path, none);
+  const Status written = WriteCameraText(path, text);
+  if (written && replaces) {
+    std::cerr << "palacectl: warning: an earlier file " << path << " was replaced\n";
+  }
+  return written;
+}
+
 void AddCameraCommand(CLI::App& app, int& exit_code) {
   CLI::App* camera = app.add_subcommand(
       "camera", "Camera model files: project, backproject, convert, info, align");

@@ -104,6 +104,9 @@ void PrintResidual(const ConvertedCamera& converted, LensFamily family, const Ca
 }  // namespace
 
 int RunCameraConvert(const CameraOptions& options) {
+  if (const Status apart = CheckNoInput(options.out, {options.model}); !apart) {
+    return FailCamera(apart.error());
+  }
   const auto model = ReadCameraModel(options.model, options);
   if (!model) {
     return FailCamera(model.error());
@@ -120,7 +123,7 @@ int RunCameraConvert(const CameraOptions& options) {
   if (!text) {
     return FailCamera(text.error());
   }
-  if (const Status written = WriteCameraText(options.out, *text); !written) {
+  if (const Status written = WriteCameraModel(options.out, *text); !written) {
     return FailCamera(written.error());
   }
   std::printf("from      %s: %s\nto        %s: %s, %s\n", options.model.c_str(),

@@ -31,6 +31,8 @@ int FailCamera(const Error& error);
 Result<CameraModel> ReadCameraModel(const std::string& path, const CameraOptions& options,
                                     std::optional<StereoSide> side = std::nullopt);
 Status WriteCameraText(const std::string& path, const std::string& text);
+/// The same, for a model; tells on stderr that a file of this name was replaced.
+Status WriteCameraModel(const std::string& path, const std::string& text);
 
 /// Each returns the exit code.
 int RunCameraConvert(const CameraOptions& options);

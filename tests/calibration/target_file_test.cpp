@@ -30,6 +30,11 @@ TEST(TargetFileTest, ReadsDotsAndChessboards) {
       "[target]\nkind = \"chessboard\"\ncolumns = 9\nrows = 6\npitch_m = 0.025\n", "T");
   ASSERT_TRUE(board.ok()) << board.error().message;
   EXPECT_EQ(board->DotDiameter_m(3), 0);
+  const auto millimetres = ParseTargetText(
+      "[target]\nkind = \"chessboard\"\ncolumns = 9\nrows = 6\npitch_m = 25\n", "T");
+  ASSERT_FALSE(millimetres.ok());
+  EXPECT_EQ(millimetres.error().message,
+            "T:5: target.pitch_m = 25 is outside 0.001 .. 1; give metres from point to point");
 }
 
 TEST(TargetFileTest, WhatIsWrittenReadsTheSame) {
@@ -82,6 +87,9 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"Fraction", "rows = 10", "rows = 9.5", {":4", "9.5", "whole"}},
         Damage{"NotANumber", "pitch_m = 0.09", "pitch_m = nan", {":5", "pitch_m"}},
         Damage{"Negative", "pitch_m = 0.09", "pitch_m = -1", {":5", "-1", "metres"}},
+        Damage{
+            "Millimetres", "pitch_m = 0.09", "pitch_m = 90", {":5", "pitch_m = 90", "0.001 .. 1;"}},
+        Damage{"TooFine", "pitch_m = 0.09", "pitch_m = 0.0009", {":5", "0.001 .. 1;"}},
         Damage{"Text", "pitch_m = 0.09", "pitch_m = \"90 mm\"", {":5", "number"}},
         Damage{"DotsTouch", "0.045", "0.09", {":6", "0.0675", "0.75 of pitch_m"}},
         Damage{"DotsVanish", "0.045", "0.001", {":6", "0.009"}},

@@ -225,6 +225,10 @@ TEST(Alignment, ImpossiblePairsAreRefusedWithTheReason) {
   folded.t_CF = {3, 0, 0};
   EXPECT_NE(refusal({folded}, left).find("left camera: the border pixel (0"), std::string::npos)
       << refusal({folded}, left);
+  const CameraModel behind = Placed(random, 1, {1, 0, 0}, {0, std::numbers::pi, 0});
+  EXPECT_NE(refusal(left, behind).find("axes are 180.0 degrees apart, the limit is 150"),
+            std::string::npos)
+      << refusal(left, behind);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "tests/camera/camera_file_texts.h"
 #include "tests/camera/reference_vectors.h"
 #include "tests/camera/sample_cameras.h"
+#include "tests/support/own_path.h"
 
 namespace palace {
 namespace {
@@ -81,6 +82,60 @@ TEST(CameraFiles, LabelsAreReadWhereverTheirGroupStands) {
   EXPECT_EQ(FamilyOf(vicar), "CAHV");
   EXPECT_EQ(WidthOf(vicar), 640);
   EXPECT_EQ(HeightOf(vicar), 480);
+}
+
+TEST(CameraFiles, LengthsOfLabelsBecomeMetres) {
+  const auto label = [](const std::string& unit, const std::string& in_list) {
+    const std::string list = "  MODEL_COMPONENT_UNIT = (" + in_list + ")\n  MODEL_COMPONENT_1 =";
+    std::string text =
+        in_list.empty() ? kPdsText : Replaced(kPdsText, "  MODEL_COMPONENT_1 =", list);
+    for (int i = 0; i < 3; ++i) {
+      text = Replaced(text, " <m>", unit);
+    }
+    return std::get<CahvoreModel>(Parsed(text, "a.lbl").lens);
+  };
+  struct Row {
+    const char* unit;  ///< behind the numbers of C
+    const char* in_list;
+    double C_m;
+    double E_m;
+  };
+  const Row rows[] = {
+      {"", "", 1, 1},
+      {"", "METER,\"N/A\",PIXEL,PIXEL,\"N/A\",\"N/A\",\"N/A\"", 1, 1},
+      {"", "\"N/A\"", 1, 1},
+      {"", "MILLIMETER,\n    \"N/A\",PIXEL,PIXEL,\"N/A\",\"N/A\",\"N/A\"", 0.001, 0.001},
+      {"", "'millimetres'", 0.001, 0.001},
+      {"", "MM,\"N/A\",PIXEL,PIXEL,\"N/A\",\"N/A\",METRE", 0.001, 1},
+      {"", "CENTIMETER", 0.01, 0.01},
+      {" <mm>", "METER", 0.001, 0.001},
+  };
+  for (const Row& row : rows) {
+    SCOPED_TRACE(std::string(row.unit) + row.in_list);
+    const CahvoreModel model = label(row.unit, row.in_list);
+    EXPECT_DOUBLE_EQ(model.base.C.x(), 0.606185 * row.C_m);
+    EXPECT_DOUBLE_EQ(model.E.x(), 0.000942 * row.E_m);
+    EXPECT_EQ(model.base.H.x(), 353.341) << "pixels stay";
+  }
+  const std::string vicar = Replaced(
+      kVicarText, "MODEL_COMPONENT_1=", "MODEL_COMPONENT__UNIT=('MILLIMETER') MODEL_COMPONENT_1=");
+  EXPECT_DOUBLE_EQ(CentreOf(Parsed(vicar, "a.vic")).y(), -0.528e-3);
+}
+
+TEST(CameraFiles, WhatIsWrittenIsNoneOfTheFilesRead) {
+  const std::filesystem::path folder = OwnPath();
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "a.cahvor") << kCahvorText;
+  std::filesystem::create_symlink("a.cahvor", folder / "b.cahvor");
+  for (const char* name : {"a.cahvor", "b.cahvor", "./a.cahvor"}) {
+    const Status apart = CheckNoInput(folder / name, {folder / "none", folder / "a.cahvor"});
+    ASSERT_FALSE(apart.ok()) << name;
+    EXPECT_EQ(apart.error().code, ErrorCode::kUsage);
+    EXPECT_NE(apart.error().message.find("would overwrite the camera model"), std::string::npos);
+  }
+  EXPECT_TRUE(CheckNoInput(folder / "c.cahvor", {folder / "a.cahvor"}).ok());
+  EXPECT_TRUE(CheckNoInput(folder / "c.cahvor", {folder / "c.cahvor"}).ok()) << "not there yet";
+  std::filesystem::remove_all(folder);
 }
 
 TEST(CameraFiles, WillsonFilesMayLabelTheirNumbersOrShareLines) {

@@ -198,6 +198,18 @@ Result<CameraModel> ReadCameraFile(const std::filesystem::path& path,
   return ParseCameraText(*text, path.string(), options);
 }
 
+Status CheckNoInput(const std::filesystem::path& out,
+                    const std::vector<std::filesystem::path>& inputs) {
+  for (const std::filesystem::path& input : inputs) {
+    std::error_code none;  // a file that is not there is no input
+    if (std::filesystem::equivalent(out, input, none)) {
+      return UsageError("--out: " + out.string() + " would overwrite the camera model " +
+                        input.string() + ", which is read; choose another place");
+    }
+  }
+  return Ok();
+}
+
 Result<std::string> CameraToText(const CameraModel& model, CameraFormat format) {
   switch (format) {
     case CameraFormat::kJplText:

@@ -2,7 +2,8 @@
 //
 //   format            read  write  what it holds
 //   JPL text          yes   yes    CAHV, CAHVOR, CAHVORE; Dimensions may be missing
-//   PDS3/VICAR label  yes   -      group GEOMETRIC_CAMERA_MODEL, also inside a longer label
+//   PDS3/VICAR label  yes   -      group GEOMETRIC_CAMERA_MODEL, also inside a longer label; its
+//                                  lengths (MODEL_COMPONENT_UNIT) become metres
 //   Willson .cpcc     yes   yes    Tsai; millimetres
 //   OpenCV YAML, XML  yes   yes    pinhole and fisheye with up to 14 coefficients, R and T if there
 //   ROS camera_info   yes   yes    plumb_bob, rational_polynomial, equidistant; F is the rectified
@@ -25,6 +26,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/camera/camera_model.h"
 #include "engine/core/result.h"
@@ -61,6 +63,9 @@ Result<CameraModel> ParseCameraText(std::string_view text, const std::string& na
 /// Reads a file of at most 16 MiB.
 Result<CameraModel> ReadCameraFile(const std::filesystem::path& path,
                                    const CameraFileOptions& options = {});
+/// Refuses to write `out` where it is one of the files that are read, by whatever name.
+Status CheckNoInput(const std::filesystem::path& out,
+                    const std::vector<std::filesystem::path>& inputs);
 /// The text of a file; numbers with 17 digits, so that reading gives the same camera to the bit.
 /// Refuses formats that cannot hold the model's family, and those that are only read.
 Result<std::string> CameraToText(const CameraModel& model, CameraFormat format);

@@ -1,4 +1,6 @@
 // JPL camera models: text files and the GEOMETRIC_CAMERA_MODEL group of PDS3 and VICAR labels.
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -14,6 +16,7 @@ struct Keys {
   std::string C = "C", A = "A", H = "H", V = "V", O = "O", R = "R", E = "E";
   std::string type = "T";       ///< of CAHVORE, where the model line does not tell
   std::string parameter = "P";  ///< linearity of type 3
+  double C_m = 1, E_m = 1;      ///< metres of the unit that they are told in
 };
 
 Status ReadVector(const KeyedText& text, const std::string& key, Eigen::Vector3d& vector) {
@@ -56,6 +59,7 @@ Status ReadBase(const KeyedText& text, const Keys& keys, bool has_distortion, Ca
       return step;
     }
   }
+  model.C *= keys.C_m;
   const Eigen::Vector3d across = model.A.cross(model.H);
   const Eigen::Vector3d down = model.A.cross(model.V);
   if (!(across.norm() > 1e-6)) {
@@ -66,6 +70,12 @@ Status ReadBase(const KeyedText& text, const Keys& keys, bool has_distortion, Ca
   }
   if (!(across.cross(down).norm() > 1e-6 * across.norm() * down.norm())) {
     return text.Wrong(keys.V, "runs along H; rows and columns would be parallel");
+  }
+  // (A x H) x (A x V) . A is (H' x V') . A: A is unit.
+  if (!(across.cross(down).dot(model.A) > 0)) {
+    return text.Wrong(keys.H,
+                      "gives a mirrored model: (H' x V') . A is negative, with x to the right, y "
+                      "down and A forward it must be positive; correct the sign of H or V");
   }
   if (has_distortion && !(model.O.dot(model.A) > 0)) {
     return text.Wrong(keys.O, "points away from A; the optical axis must look forward");
@@ -85,6 +95,7 @@ Result<CameraModel> ReadCahvore(const KeyedText& text, const Keys& keys, double 
   if (!(std::abs(linearity) <= 10)) {
     return text.Wrong(where, "the linearity must lie within -10 .. 10; real lenses have -1 .. 1");
   }
+  model.E *= keys.E_m;
   model.linearity = linearity;
   return CameraModel{model};
 }
@@ -150,6 +161,82 @@ Result<CameraModel> ReadUnnamed(const KeyedText& text) {
   CahvorModel model;
   const Status status = ReadBase(text, keys, text.Has("O") || text.Has("R"), model);
   return status ? Result<CameraModel>(CameraModel{model}) : Result<CameraModel>(status.error());
+}
+
+/// METER of "Meters", without what stands around it.
+std::string UnitName(std::string_view text) {
+  std::string name;
+  for (const char c : text) {
+    if (std::string_view(" \t\r\n\f\v(){}<>\"'").find(c) == std::string_view::npos) {
+      name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    }
+  }
+  if (name.size() > 2 && name.back() == 'S') {
+    name.pop_back();
+  }
+  return name;
+}
+
+/// The entry of a list of units; empty where the list is shorter.
+std::string UnitInList(std::string_view list, std::size_t index) {
+  for (; index > 0; --index) {
+    const auto comma = list.find(',');
+    if (comma == std::string_view::npos) {
+      return {};
+    }
+    list.remove_prefix(comma + 1);
+  }
+  return UnitName(list.substr(0, list.find(',')));
+}
+
+/// Metres of a component's unit, which stands as <unit> behind its numbers or in the label's list
+/// of units; `untold_m` where neither tells it, as labels do for E.
+Result<double> UnitOf(const KeyedText& text, const std::string& key, const std::string& list_key,
+                      std::size_t index, double untold_m) {
+  std::string unit;
+  std::string where = key;
+  const KeyedValue* value = text.Find(key);
+  std::string_view rest = value == nullptr ? std::string_view{} : std::string_view(value->text);
+  for (auto at = rest.find('<'); at != std::string_view::npos; at = rest.find('<')) {
+    rest.remove_prefix(at + 1);
+    const std::string next = UnitName(rest.substr(0, rest.find('>')));
+    if (!unit.empty() && next != unit) {
+      return text.Wrong(key, "its numbers have different units; give them in one");
+    }
+    unit = next;
+  }
+  const KeyedValue* list = text.Find(list_key);
+  if (unit.empty() && list != nullptr) {
+    if (list->is_cut || list->again_line > 0) {
+      return text.Wrong(list_key,
+                        "is cut short, or given again with another value; give it once, whole");
+    }
+    unit = UnitInList(list->text, index);
+    where = list_key;
+  }
+  if (unit.empty() || unit == "N/A") {
+    return untold_m;
+  }
+  struct Unit {
+    std::string_view name;
+    double m;
+  };
+  static constexpr std::array<Unit, 9> kUnits = {{{"M", 1},
+                                                  {"METER", 1},
+                                                  {"METRE", 1},
+                                                  {"CM", 0.01},
+                                                  {"CENTIMETER", 0.01},
+                                                  {"CENTIMETRE", 0.01},
+                                                  {"MM", 0.001},
+                                                  {"MILLIMETER", 0.001},
+                                                  {"MILLIMETRE", 0.001}}};
+  for (const Unit& known : kUnits) {
+    if (unit == known.name) {
+      return known.m;
+    }
+  }
+  return text.Wrong(where, "the unit of " + key +
+                               " must be METER, CENTIMETER or MILLIMETER; N/A counts as metres");
 }
 
 }  // namespace
@@ -239,8 +326,21 @@ Result<CameraModel> ReadPdsLabel(const KeyedText& text) {
     return at == std::string::npos ? group + "MODEL_COMPONENT of " + letter
                                    : group + "MODEL_COMPONENT_" + std::to_string(at + 1);
   };
-  const Keys keys = {key_of('C'), key_of('A'), key_of('H'), key_of('V'), key_of('O'),
-                     key_of('R'), key_of('E'), key_of('T'), key_of('P')};
+  Keys keys = {key_of('C'), key_of('A'), key_of('H'), key_of('V'), key_of('O'),
+               key_of('R'), key_of('E'), key_of('T'), key_of('P')};
+  // VICAR labels write it with two underlines.
+  const std::string units =
+      text.FirstOf({group + "MODEL_COMPONENT_UNIT", group + "MODEL_COMPONENT__UNIT"});
+  const auto C_m = UnitOf(text, keys.C, units, order.find('C'), 1);
+  if (!C_m) {
+    return C_m.error();
+  }
+  const auto E_m = UnitOf(text, keys.E, units, order.find('E'), *C_m);
+  if (!E_m) {
+    return E_m.error();
+  }
+  keys.C_m = *C_m;
+  keys.E_m = *E_m;
   const auto size = text.Has("IMAGE.LINES") ? ReadSize(text, "IMAGE.LINE_SAMPLES", "IMAGE.LINES")
                                             : ReadSize(text, "NS", "NL");
   const std::string type = text.Word(type_key);
