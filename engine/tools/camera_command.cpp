@@ -40,6 +40,9 @@ using PointFunction = Result<std::string> (*)(const CameraModel&, std::istream&,
                                               const std::string&);
 
 int RunPoints(const CameraOptions& options, PointFunction function) {
+  if (const Status apart = CheckNoInput(options.out, {options.model, options.in}); !apart) {
+    return FailCamera(apart.error());
+  }
   const auto model = ReadCameraModel(options.model, options);
   if (!model) {
     return FailCamera(model.error());

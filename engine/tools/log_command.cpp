@@ -138,9 +138,15 @@ int Export(const LogOptions& options) {
   if (!channels) {
     return Fail(channels.error());
   }
+  std::error_code none;
+  const bool replaces =
+      std::filesystem::exists(std::filesystem::path(options.out) / "status.csv", none);
   const Result<ExportedLog> exported = ExportCsv(options.log, options.out, *channels);
   if (!exported) {
     return Fail(exported.error());
+  }
+  if (replaces) {
+    std::cerr << "palacectl: warning: an earlier export in " << options.out << " was replaced\n";
   }
   bool decided = false;
   for (const ExportedTable& table : exported->tables) {

@@ -203,8 +203,8 @@ Status CheckNoInput(const std::filesystem::path& out,
   for (const std::filesystem::path& input : inputs) {
     std::error_code none;  // a file that is not there is no input
     if (std::filesystem::equivalent(out, input, none)) {
-      return UsageError("--out: " + out.string() + " would overwrite the camera model " +
-                        input.string() + ", which is read; choose another place");
+      return UsageError("--out: " + out.string() + " would overwrite " + input.string() +
+                        ", which is read; choose another place");
     }
   }
   return Ok();
