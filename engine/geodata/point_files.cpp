@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include "engine/core/files.h"
@@ -44,22 +45,22 @@ Status Open(const std::filesystem::path& path, std::ifstream& file) {
               : Status(UnavailableError(path.string() + ": cannot be read; check its permissions"));
 }
 
-/// The last line before the first row that is none itself.
+/// A line before the first row that is none itself.
 struct Heading {
   std::string line;
   std::size_t number = 0;
   bool is_comment = false;
 };
 
-/// Calls take(numbers, heading) for every line of at least `least` numbers, false: it is no row.
-/// Comments, empty lines and some headings before the first point are passed over.
+/// Calls take(numbers, headings) for every line of at least `least` numbers. Comments, empty lines
+/// and some headings before the first point are passed over; of comments the last is handed on.
 template <typename Take>
 Status ReadLines(const std::filesystem::path& path, std::ifstream& file, std::size_t least,
                  Take take) {
   constexpr std::size_t kMostColumns = 16, kMostHeadings = 20;
   std::vector<double> numbers;
-  std::size_t columns = 0, headings = 0;
-  Heading heading, first_heading;
+  std::size_t columns = 0;
+  std::vector<Heading> headings;
   std::string line;
   for (std::size_t n = 1; std::getline(file, line); ++n) {
     if (n == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) {
@@ -70,7 +71,10 @@ Status ReadLines(const std::filesystem::path& path, std::ifstream& file, std::si
       continue;
     }
     if (std::strchr("#/%!", line[first]) != nullptr) {
-      heading = columns == 0 ? Heading{line, n, true} : heading;
+      if (columns == 0) {
+        std::erase_if(headings, [](const Heading& heading) { return heading.is_comment; });
+        headings.push_back({line, n, true});
+      }
       continue;
     }
     if (const auto end = line.find('\r'); end < line.find_last_not_of(" \t\r")) {
@@ -88,9 +92,8 @@ Status ReadLines(const std::filesystem::path& path, std::ifstream& file, std::si
     }
     if (ParseNumbers(line, kMostColumns, numbers) < least) {
       const bool begins_a_number = std::strchr("0123456789+-.", line[first]) != nullptr;
-      if (columns == 0 && numbers.empty() && !begins_a_number && ++headings <= kMostHeadings) {
-        heading = {line, n, false};
-        first_heading = headings == 1 ? heading : first_heading;
+      if (columns == 0 && numbers.empty() && !begins_a_number && headings.size() < kMostHeadings) {
+        headings.push_back({line, n, false});
         continue;
       }
       return ErrorAtLine(path, n,
@@ -101,28 +104,46 @@ Status ReadLines(const std::filesystem::path& path, std::ifstream& file, std::si
       return ErrorAtLine(path, n, "the last line is cut off: " + QuotedLine(line));
     }
     columns = columns == 0 ? numbers.size() : columns;
-    if (const Status taken = take(numbers, heading); !taken) {
-      return ErrorAtLine(path, heading.number, taken.error().message);
+    if (const Status taken = take(numbers, headings); !taken) {
+      return taken;
     }
   }
-  if (columns == 0 && headings > 1) {
-    return ErrorAtLine(path, first_heading.number,
-                       "expected x y z, found " + QuotedLine(first_heading.line));
+  std::erase_if(headings, [](const Heading& heading) { return heading.is_comment; });
+  if (columns == 0 && headings.size() > 1) {
+    return ErrorAtLine(path, headings.front().number,
+                       "expected x y z, found " + QuotedLine(headings.front().line));
   }
   return Ok();
+}
+
+/// By whichever of them names all; what another makes doubtful counts only where none does. The
+/// first three where none is one of columns.
+Result<PointColumns> ColumnsUnder(const std::filesystem::path& path,
+                                  const std::vector<Heading>& headings, std::size_t row_numbers) {
+  std::optional<Error> doubt;
+  for (const Heading& heading : headings) {
+    const auto named = ColumnsNamed(heading.line, row_numbers, heading.is_comment);
+    if (named && *named) {
+      return **named;
+    }
+    if (!named && !doubt) {
+      doubt = ErrorAtLine(path, heading.number, named.error().message);
+    }
+  }
+  return doubt ? Result<PointColumns>(*doubt) : PointColumns{0, 1, 2};
 }
 
 Result<Points> ReadText(const std::filesystem::path& path, std::ifstream& file) {
   Points points;
   PointColumns at = {0, 1, 2};
-  const Status read =
-      ReadLines(path, file, 3, [&](const std::vector<double>& numbers, const Heading& heading) {
-        if (points.empty() && heading.number > 0) {
-          const auto named = ColumnsNamed(heading.line, numbers.size(), heading.is_comment);
+  const Status read = ReadLines(
+      path, file, 3, [&](const std::vector<double>& numbers, const std::vector<Heading>& headings) {
+        if (points.empty()) {
+          const auto named = ColumnsUnder(path, headings, numbers.size());
           if (!named) {
             return Status(named.error());
           }
-          at = named->value_or(at);
+          at = *named;
         }
         const auto value = [&](std::size_t axis) {
           return at[axis] < numbers.size() ? numbers[at[axis]] : std::nan("");
@@ -221,8 +242,8 @@ Result<std::vector<LabelledPoint>> ReadLabelledPoints(const std::filesystem::pat
     return open.error();
   }
   std::vector<LabelledPoint> points;
-  const Status read =
-      ReadLines(path, file, 4, [&](const std::vector<double>& numbers, const Heading&) {
+  const Status read = ReadLines(
+      path, file, 4, [&](const std::vector<double>& numbers, const std::vector<Heading>&) {
         points.push_back({{numbers[0], numbers[1], numbers[2]}, numbers[3] == 1});
         return Ok();
       });

@@ -50,6 +50,8 @@ TEST_F(PointFiles, ColumnsAreTakenByTheirNames) {
         "id,x,y,z\n11,1,2,3\n12,4,5,6\n13,7,8,10\n",
         "z [m];y [m];x [m];intensity\n3;2;1;9\n6;5;4;9\n10;8;7;9\n",
         "Elevation (m) East North\n3 1 2\n6 4 5\n10 7 8\n",
+        "Northing,Easting,Height\n# taken in May\n2,1,3\n5,4,6\n8,7,10\n",
+        "Northing,Easting,Height\n(m),(m),(m)\n2,1,3\n5,4,6\n8,7,10\n",
         "//id x y z\n11 1 2 3\n12 4 5 6\n13 7 8 10\n", "\"x\",\"y\",\"z\"\n1,2,3\n4,5,6\n7,8,10\n",
         // Prose, and names that say nothing of three columns.
         "Survey of the north field\n1 2 3\n4 5 6\n7 8 10\n", "a b c\n1 2 3\n4 5 6\n7 8 10\n",
@@ -73,6 +75,7 @@ TEST_F(PointFiles, WhatHeadingsMakeDoubtfulIsRefused) {
   } rows[] = {
       {"north,east,down\n1,2,3\n4,5,6\n7,8,9\n",
        ":1: column 3 is named \"down\"; heights must count upwards: write z = -down"},
+      {"north,east,down\n# taken in May\n1,2,3\n4,5,6\n7,8,9\n", ":1: column 3 is named \"down\""},
       {"x,y,depth\n1,2,3\n4,5,6\n7,8,9\n", ":1: column 3 is named \"depth\"; heights must"},
       {"# note\nx,y,Height (ft)\n1,2,3\n4,5,6\n7,8,9\n",
        ":2: column 3 is named \"height\" in ft; metres are expected"},
