@@ -75,7 +75,7 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
   const Rect below_head = PanelContent(rect, s);
   const Rect area{below_head.x, below_head.y + s.Px(4), below_head.w, below_head.h - s.Px(4)};
   const std::string beyond = RowsBeyondWords(RowsBeyond(area, rows.size(), s, narrow));
-  DrawPanelFrame(ui, rect, landed ? "Last figures" : "Limits in force", {{beyond}, {fact, 0, old, old || over > 0}});
+  DrawPanelFrame(ui, rect, landed ? "No limit in force" : "Limits in force", {{beyond}, {fact, 0, old, old || over > 0}});
   DrawScrolledRows(ui, "limit_rows", area, rows, narrow, scroll);
   if (old) {
     StaleVeil(s, Canvas(), area);
