@@ -17,6 +17,7 @@ namespace palace {
 namespace {
 
 constexpr std::size_t kMostFaultEvents = 1000;  // told of one log
+constexpr std::uint64_t kMostLost = 10000;      // a longer jump is a damaged number
 
 void RemoveLog(const std::filesystem::path& log) {
   std::error_code ignored;
@@ -24,18 +25,33 @@ void RemoveLog(const std::filesystem::path& log) {
   std::filesystem::remove(SidecarPath(log), ignored);
 }
 
-/// Copies the readable events that `keep` wants. Whatever fails, closed or not.
+/// Events that were numbered between two that follow each other in the log.
+std::uint64_t LostBetween(const LogEntry& before, const LogEntry& after) {
+  const auto lost =  // as unsigned: a damaged number may be the largest there is
+      static_cast<std::uint64_t>(after.number) - static_cast<std::uint64_t>(before.number) - 1;
+  return lost < kMostLost ? lost : 0;
+}
+
+/// Copies the readable events that `keep` wants, and the jumps in number of what is lost between
+/// them: a copy of a damaged log is no whole one. Whatever fails, closed or not.
 Result<CopiedLog> CopyInto(LogWriter writer, const LogFile& file, const LogIndex& index,
                            const std::function<bool(const LogEntry&)>& keep) {
   CopiedLog copied;
-  for (const LogEntry& entry : index.entries) {
+  for (std::size_t i = 0; i < index.entries.size(); ++i) {
+    const LogEntry& entry = index.entries[i];
     if (!keep(entry)) {
       continue;
     }
+    if (writer.events() > 0) {
+      writer.CountLost(LostBetween(index.entries[i - 1], entry));
+    }
     const Result<WireMessage> message = ReadEvent(file, entry, index.channels);
-    copied.left_out += message ? 0 : 1;
-    const Status written = message ? writer.Write(*message) : Ok();
-    if (!written) {
+    if (!message) {
+      ++copied.left_out;
+      writer.CountLost(writer.events() > 0 ? 1 : 0);
+      continue;
+    }
+    if (const Status written = writer.Write(*message); !written) {
       return written.error();
     }
   }

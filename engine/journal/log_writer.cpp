@@ -51,7 +51,7 @@ Status LogWriter::Write(const WireMessage& message) {
   std::vector<std::uint8_t> head;
   head.reserve(kLogHeaderBytes + message.channel.size());
   PutBig(head, kLogSync);
-  PutBig(head, static_cast<std::int64_t>(events_));
+  PutBig(head, static_cast<std::int64_t>(events_ + lost_));
   PutBig(head, message.time.us);
   PutBig(head, static_cast<std::int32_t>(message.channel.size()));
   PutBig(head, static_cast<std::int32_t>(message.payload.size()));
@@ -80,7 +80,7 @@ void LogWriter::WriteIndex(const WireMessage& message, std::uint64_t offset, std
   LogEntry entry;
   entry.offset = offset;
   entry.length = length;
-  entry.number = static_cast<std::int64_t>(events_);
+  entry.number = static_cast<std::int64_t>(events_ + lost_);
   entry.time = message.time;
   entry.channel = channel->second.id;
   entry.crc = crc;

@@ -33,6 +33,8 @@ class LogWriter {
                                   const Disk& disk = SystemDisk());
   /// Into memory; to the operating system when much waits.
   Status Write(const WireMessage& message);
+  /// Events that belong before the next one cannot be had any more: its number tells how many.
+  void CountLost(std::uint64_t events) { lost_ += events; }
   /// To the operating system. After a failure the log ends where it was flushed last.
   Status Flush();
   Status Close();
@@ -63,6 +65,7 @@ class LogWriter {
   std::map<std::string, Channel> channels_;
   LogMark flushed_;
   std::uint64_t events_ = 0;
+  std::uint64_t lost_ = 0;
   std::uint64_t synced_bytes_ = 0;
 };
 

@@ -72,10 +72,14 @@ int Impression(const LogReport& report) {
   return report.damaged() ? kDamaged : kWhole;
 }
 
-/// "whole" only where every event was compared with its checksum.
+/// "whole" only where every event was compared with its checksum, and none is missing by number.
 int Verdict(const LogReport& report) {
+  const bool lacks_events = report.number_jumps > 0;
   if (report.damaged()) {
     std::printf("damaged, the rest is readable\n");
+  } else if (lacks_events) {
+    std::printf(
+        "what is here is readable, but event numbers jump: events are missing, or not in order\n");
   } else if (report.unchecked == 0) {
     std::printf("whole\n");
   } else {
@@ -83,7 +87,9 @@ int Verdict(const LogReport& report) {
                 static_cast<unsigned long long>(report.unchecked),
                 static_cast<unsigned long long>(report.events));
   }
-  return report.damaged() ? kDamaged : report.unchecked == 0 ? kWhole : kNotAllChecked;
+  return report.damaged() || lacks_events ? kDamaged
+         : report.unchecked == 0          ? kWhole
+                                          : kNotAllChecked;
 }
 
 int Describe(const LogOptions& options, bool verify) {
@@ -194,8 +200,8 @@ void AddLogCommand(CLI::App& app, int& exit_code) {
 
   CLI::App* verify =
       verb("verify",
-           "Compare every event with its checksum. Exit 0 whole, 3 damaged but read, "
-           "4 readable but not all could be checked, 1 nothing readable");
+           "Compare every event with its checksum. Exit 0 whole, 3 damaged or lacking events but "
+           "read, 4 readable but not all could be checked, 1 nothing readable");
   verify->callback([options, &exit_code] { exit_code = Describe(*options, true); });
 
   CLI::App* export_verb = verb("export", "Estimates, truth, decisions, sites, settings as CSV");

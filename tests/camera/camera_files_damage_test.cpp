@@ -42,6 +42,8 @@ TEST(CameraFiles, ErrorsNameFileLineKeyAndLimit) {
       {"H along V", kCahvorText, "V = -372 9 718", "V = 225.6 770 228", "runs along H"},
       {"mirrored", kCahvorText, "H = 225.6 770 228", "H = 225.6 -770 228",
        "f.cam:6: H = 225.6 -770 228: gives a mirrored model"},
+      {"CAHV with distortion", kCahvorText, "Model = CAHVOR", "Model = CAHV",
+       ": a CAHV model has no distortion; name the model CAHVOR if it has it"},
       {"CAHVORE mirrored", kCahvoreText, "V = 44.0102 16.904 683.916",
        "V = -44.0102 -16.904 -683.916", "f.cam:5: H = 353.341 474.873 350.82: gives a mirrored"},
       {"label mirrored", kPdsText, "(353.341,474.873,350.82)", "(-353.341,-474.873,-350.82)",

@@ -51,6 +51,27 @@ TEST_F(ReplayTest, RepairKeepsEveryReadableEvent) {
   EXPECT_FALSE(index->report.damaged());
 }
 
+/// A copy of a damaged log is no whole one: the numbers of its events tell what is lost.
+TEST_F(ReplayTest, ACopyOfADamagedLogStillLacksItsEvents) {
+  const auto index = BuildIndex(*LogFile::Open(flight_.log));
+  const auto middle =
+      index->entries.begin() + static_cast<std::ptrdiff_t>(index->entries.size() / 2);
+  auto bytes = ReadBytes(flight_.log);
+  for (const auto& lost : {middle[0], middle[1], middle[5]}) {
+    bytes[lost.offset] ^= 1;
+  }
+  const auto log = folder_ / "broken.lcm";
+  WriteBytes(log, bytes);
+  ASSERT_TRUE(RepairLog(log, folder_ / "repaired.lcm").ok());
+  const LogReport repaired = VerifyLog(*LogFile::Open(folder_ / "repaired.lcm"))->report;
+  EXPECT_FALSE(repaired.damaged());
+  EXPECT_EQ(repaired.number_jumps, 2u);
+  EXPECT_EQ(repaired.unchecked, 0u);
+  ASSERT_TRUE(CutLog(log, folder_ / "cut.lcm", 0, 0.25).ok());
+  EXPECT_EQ(VerifyLog(*LogFile::Open(folder_ / "cut.lcm"))->report.number_jumps, 0u)
+      << "nothing is lost before the damage";
+}
+
 TEST_F(ReplayTest, DescribesALogAndItsHealth) {
   const auto whole = DescribeLog(flight_.log, true);
   ASSERT_TRUE(whole.ok());

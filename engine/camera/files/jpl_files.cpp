@@ -53,11 +53,17 @@ Status ReadBase(const KeyedText& text, const Keys& keys, bool has_distortion, Ca
     steps.push_back(ReadVector(text, keys.R, model.R));
   } else {
     model.O = model.A;
+    if (text.Has(keys.R)) {
+      steps.push_back(ReadVector(text, keys.R, model.R));
+    }
   }
   for (const Status& step : steps) {
     if (!step) {
       return step;
     }
+  }
+  if (!has_distortion && !model.R.isZero(0)) {
+    return text.Wrong(keys.R, "a CAHV model has no distortion; name the model CAHVOR if it has it");
   }
   model.C *= keys.C_m;
   const Eigen::Vector3d across = model.A.cross(model.H);
