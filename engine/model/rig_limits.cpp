@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <type_traits>
 #include <utility>
 
 #include "engine/core/text.h"
@@ -31,6 +32,25 @@ std::pair<int, int> SizeOf(const CameraModel& model) {
       model.lens);
 }
 
+/// Of the CAHV family: x to the right, y down and A forward, else all that is left of the axis is
+/// measured on its right.
+bool IsMirrored(const CameraModel& model) {
+  return std::visit(
+      [](const auto& lens) {
+        const auto mirrored = [](const CahvorModel& m) {
+          return !(m.A.cross(m.H).cross(m.A.cross(m.V)).dot(m.A) > 0);
+        };
+        if constexpr (requires { lens.base; }) {
+          return mirrored(lens.base);
+        } else if constexpr (std::is_same_v<std::decay_t<decltype(lens)>, CahvorModel>) {
+          return mirrored(lens);
+        } else {
+          return false;
+        }
+      },
+      model.lens);
+}
+
 std::string WhyNoCamera(const RigCamera& camera) {
   if (std::string why = WhyNoPinhole(camera.pinhole); !why.empty()) {
     return why;
@@ -42,6 +62,9 @@ std::string WhyNoCamera(const RigCamera& camera) {
   }
   if (!camera.model) {
     return {};
+  }
+  if (IsMirrored(*camera.model)) {
+    return "a mirrored camera model: (A x H) x (A x V) does not point along A";
   }
   const auto [width, height] = SizeOf(*camera.model);
   return WhyNoPictureSize(width, height);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -61,6 +62,9 @@ int Worlds(const WorldsOptions& options) {
       return Fail(world.error());
     }
   }
+  const std::filesystem::path page = gallery.folder / "gallery.html";
+  std::error_code none;
+  const bool replaces = std::filesystem::exists(page, none);
   const Status written = WriteWorldGallery(gallery, [](const std::string& family) {
     std::printf("%s\n", family.c_str());
     std::fflush(stdout);
@@ -68,7 +72,11 @@ int Worlds(const WorldsOptions& options) {
   if (!written) {
     return Fail(written.error());
   }
-  std::printf("%s\n", (gallery.folder / "gallery.html").string().c_str());
+  if (replaces) {
+    std::cerr << "palacectl: warning: an earlier gallery in " << options.gallery
+              << " was replaced\n";
+  }
+  std::printf("%s\n", page.string().c_str());
   return 0;
 }
 

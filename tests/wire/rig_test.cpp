@@ -38,6 +38,11 @@ TEST(CameraRig, RigsThatCannotBeAreRefused) {
        [](StereoRig& r) { std::get<OpenCvModel>(r.left.model->lens).pinhole.width = 60000; }},
       {"pictures of 32 x 60000 px",
        [](StereoRig& r) { std::get<CahvorModel>(r.right.model->lens).height = 60000; }},
+      {"a mirrored camera model",
+       [](StereoRig& r) {
+         auto& model = std::get<CahvorModel>(r.right.model->lens);
+         model.V = -model.V;
+       }},
       {"a focal length of 1e-200 px", [](StereoRig& r) { r.left.pinhole.fx_px = 1e-200; }},
       {"a focal length of -500 px", [](StereoRig& r) { r.right.pinhole.fy_px = -500; }},
       {"a principal point at 1e+09 px", [](StereoRig& r) { r.left.pinhole.cx_px = 1e9; }},

@@ -44,6 +44,9 @@ inline StereoRig RandomRig(RandomStream& random) {
                     RandomVector(random),
                     RandomVector(random),
                     RandomVector(random)};
+  if (model.A.cross(model.H).cross(model.A.cross(model.V)).dot(model.A) < 0) {
+    model.H = -model.H;  // a mirrored model is refused
+  }
   rig.right.model = CameraModel{model};
   OpenCvModel lens;
   lens.pinhole = rig.left.pinhole;
