@@ -1,5 +1,7 @@
 #include "engine/mission/descent_limits.h"
 
+#include <utility>
+
 #include "engine/core/text.h"
 #include "engine/mission/alarms/alarms.h"
 #include "engine/mission/geometry.h"
@@ -73,14 +75,27 @@ void Enforce(const MissionMemory& m, LimitRow& row) {
   if (row.enforced_by == EnforcedBy::kNobody) {
     return;
   }
-  // Landed on it, or flies away from it, or so low that the last verdict stands.
-  if (!WatchesSite(m) || (descends && IsCommitted(m))) {
+  // Landed on it, or flies away from it, or so low that the last verdict stands. Air that was shown
+  // once is asked for no more: on the way down it comes too near to be looked at.
+  const bool air_shown = row.id == LimitId::kAirSeen && m.armed.air_shown;
+  if (!WatchesSite(m) || (descends && IsCommitted(m)) || air_shown) {
     row.enforced_by = EnforcedBy::kNobody;
     row.over = false;
   } else if (IsFlying(m.status.state)) {
     row.enforced_by = EnforcedBy::kHold;
     row.lasts = WithNumbers("%.1f s, or ", SiteWatch::kLostAfter_s) +
                 WithNumbers("%.0f of %.0f maps", SiteWatch::kLostMaps, SiteWatch::kMapsKept);
+  }
+}
+
+/// On the ground the descent is over and what is measured of it drifts on: its figures stay as the
+/// last turn in the air told them, but for where it stands. Nobody enforces them any more.
+void KeepAsFlown(const std::vector<LimitRow>& before, std::vector<LimitRow>& rows) {
+  for (LimitRow& row : rows) {
+    const LimitRow* flown = row.id == LimitId::kFromCentre ? nullptr : FindLimit(before, row.id);
+    row = flown != nullptr ? *flown : row;
+    row.enforced_by = EnforcedBy::kNobody;
+    row.over = false;
   }
 }
 
@@ -177,9 +192,9 @@ double KnownWind(const MissionMemory& m, Timestamp now) {
 }
 
 void PublishLimits(MissionMemory& m, const std::optional<FlightPath>& path, Timestamp now) {
-  m.status.limits = LimitsOfDescent(FiguresOf(m, path, now));
+  std::vector<LimitRow> limits = LimitsOfDescent(FiguresOf(m, path, now));
   const auto add = [&](const std::vector<LimitRow>& rows) {
-    m.status.limits.insert(m.status.limits.end(), rows.begin(), rows.end());
+    limits.insert(limits.end(), rows.begin(), rows.end());
   };
   if (m.status.armed && (m.newest || !m.site.evaluated())) {
     std::vector<LimitRow> site =
@@ -190,8 +205,12 @@ void PublishLimits(MissionMemory& m, const std::optional<FlightPath>& path, Time
     add(site);
   }
   add(LimitsOfHolds(HoldFactsAt(m, now)));
+  if (m.status.state == MissionState::kLanded) {
+    KeepAsFlown(m.status.limits, limits);
+  }
   add(LimitsOfCameras(m.facts.stereo, m.facts.range_agreement, m.pictures.standing(),
                       m.status.state));
+  m.status.limits = std::move(limits);
 }
 
 }  // namespace palace

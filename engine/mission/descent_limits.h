@@ -67,7 +67,8 @@ std::vector<LimitRow> LimitsOfCameras(const StereoQuality& stereo, const RangeAg
 
 /// The wind that the vehicle told last; NaN when it told none, or when that is stale.
 double KnownWind(const MissionMemory& memory, Timestamp now);
-/// Fills the limits of the status. After PublishGeometry, which returned `path`.
+/// Fills the limits of the status; on the ground those of the descent stay as the last turn in the
+/// air told them. After PublishGeometry, which returned `path`.
 void PublishLimits(MissionMemory& memory, const std::optional<FlightPath>& path, Timestamp now);
 
 }  // namespace palace

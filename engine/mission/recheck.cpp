@@ -75,6 +75,16 @@ bool IsConfirmed(const MissionMemory& m, const MissionInputs& in) {
   return m.armed.confirmed || (m.site.newest().holds() && in.terrain.rechecked->confirmed);
 }
 
+/// The one frozen figure that a look from higher up makes good: it stands against the approval no
+/// more.
+void TakeAirSeen(MissionMemory& m, const LandingSite& site) {
+  const std::vector<LimitRow> seen = SiteLimits(site, m.facts.site_limits);
+  const LimitRow* row = FindLimit(seen, LimitId::kAirSeen);
+  for (LimitRow& frozen : m.status.armed_limits) {
+    frozen = frozen.id == LimitId::kAirSeen && row != nullptr ? *row : frozen;
+  }
+}
+
 }  // namespace
 
 void FollowSite(MissionTurn& turn, const MissionInputs& in) {
@@ -98,7 +108,10 @@ void FollowSite(MissionTurn& turn, const MissionInputs& in) {
     m.armed.straight_clear =
         m.status.approach->turned() ? m.armed.straight_clear : finding.approach_clear;
   }
-  m.armed.air_shown = m.armed.air_shown || (in.terrain.rechecked && finding.low_air.empty());
+  if (!m.armed.air_shown && in.terrain.rechecked && finding.low_air.empty()) {
+    m.armed.air_shown = true;
+    TakeAirSeen(m, *in.terrain.rechecked);
+  }
   m.site.Add(std::move(finding), now);
   m.newest = in.terrain.rechecked;
   if (m.newest && std::isfinite(m.newest->look_height_m)) {

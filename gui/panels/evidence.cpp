@@ -26,8 +26,8 @@ std::string GearWords(const LandingSite& site) {
 /// panel shows first, and the rest below.
 std::vector<EvidenceRow> RowsOf(const EngineSnapshot& snap, const LandingSite& site, bool folded) {
   constexpr std::array kSite = {
-      LimitId::kSlope,        LimitId::kRoughness,   LimitId::kStep,       LimitId::kClearRadius,
-      LimitId::kUnknownCells, LimitId::kProbability, LimitId::kHeightNoise};
+      LimitId::kSlope,        LimitId::kRoughness,   LimitId::kStep,        LimitId::kClearRadius,
+      LimitId::kUnknownCells, LimitId::kProbability, LimitId::kHeightNoise, LimitId::kAirSeen};
   const auto in_folded = [](const LimitRow& limit) {
     return limit.over || (limit.id != LimitId::kStep && limit.id != LimitId::kUnknownCells &&
                           limit.id != LimitId::kOffWind);

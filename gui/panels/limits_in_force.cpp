@@ -18,7 +18,8 @@ constexpr std::array kFirst = {LimitId::kOffPath,     LimitId::kFromCentre,  Lim
                                LimitId::kApproach,    LimitId::kVisionOutage};
 
 /// What is over its limit, then the list above, then every other limit that somebody enforces.
-std::vector<EvidenceRow> RowsToShow(const std::vector<LimitRow>& limits) {
+/// `landed`: that list alone, of the descent that is over.
+std::vector<EvidenceRow> RowsToShow(const std::vector<LimitRow>& limits, bool landed) {
   std::vector<const LimitRow*> order;
   const auto add = [&](const LimitRow* limit) {
     if (limit != nullptr && std::find(order.begin(), order.end(), limit) == order.end()) {
@@ -29,13 +30,16 @@ std::vector<EvidenceRow> RowsToShow(const std::vector<LimitRow>& limits) {
     add(FindLimit(limits, id));
   }
   for (const LimitRow& limit : limits) {
-    add(limit.enforced_by != EnforcedBy::kNobody ? &limit : nullptr);
+    add(!landed && limit.enforced_by != EnforcedBy::kNobody ? &limit : nullptr);
   }
   std::stable_partition(order.begin(), order.end(),
                         [](const LimitRow* limit) { return limit->over; });
   std::vector<EvidenceRow> rows;
   for (const LimitRow* limit : order) {
     rows.push_back(RowOf(*limit));
+    if (landed && std::isfinite(limit->limit)) {  // the limit that it was under
+      rows.back().limit = (limit->is_least ? "min " : "max ") + LimitWords(*limit);
+    }
   }
   return rows;
 }
@@ -58,10 +62,11 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
   const Arrival pose = ArrivalOf(snap, ChannelId::kVehiclePose, ui.silent_s);
   const bool old = pose.state == ChannelHealth::State::kStale;
   std::string fact = measured ? "All inside" : "Nothing measured";
-  // On the ground nobody enforces any of them.
+  // On the ground nobody enforces any of them; the mission keeps them as the last turn in the air
+  // told them.
   const bool landed = snap.flight->mission.state == MissionState::kLanded;
   if (landed) {
-    fact = "On the ground";
+    fact = "None in force";
   } else if (snap.flight->mission.state == MissionState::kAborting) {
     fact = "Waved off";
   } else if (old) {
@@ -71,11 +76,12 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
   } else if (unknown > 0) {
     fact = std::to_string(unknown) + " unknown";
   }
-  const std::vector<EvidenceRow> rows = RowsToShow(limits);
+  const std::vector<EvidenceRow> rows = RowsToShow(limits, landed);
   const Rect below_head = PanelContent(rect, s);
   const Rect area{below_head.x, below_head.y + s.Px(4), below_head.w, below_head.h - s.Px(4)};
   const std::string beyond = RowsBeyondWords(RowsBeyond(area, rows.size(), s, narrow));
-  DrawPanelFrame(ui, rect, landed ? "No limit in force" : "Limits in force", {{beyond}, {fact, 0, old, old || over > 0}});
+  DrawPanelFrame(ui, rect, landed ? "Limits at touchdown" : "Limits in force",
+                 {{beyond}, {fact, 0, old, old || over > 0}});
   DrawScrolledRows(ui, "limit_rows", area, rows, narrow, scroll);
   if (old) {
     StaleVeil(s, Canvas(), area);

@@ -407,6 +407,23 @@ TEST(DescentLimits, OnTheGroundNoRowOfTheSiteClaimsAnEnforcer) {
   }
 }
 
+TEST(DescentLimits, OnTheGroundTheFiguresAreTheLastOfTheDescent) {
+  MissionRig rig;
+  Descend(rig);
+  double wind_mps = NAN, slope = NAN;
+  while (rig.state() != MissionState::kLanded) {
+    wind_mps = Row(rig, LimitId::kWind).value;
+    slope = Row(rig, LimitId::kSlope).value;
+    rig.Step();
+  }
+  ASSERT_TRUE(std::isfinite(wind_mps) && std::isfinite(slope));
+  rig.vehicle.wind_mps += 14;
+  rig.Run(1);
+  EXPECT_EQ(Row(rig, LimitId::kWind).value, wind_mps);
+  EXPECT_FALSE(Row(rig, LimitId::kWind).over);
+  EXPECT_EQ(Row(rig, LimitId::kSlope).value, slope);
+}
+
 TEST(PlaceLimit, OnTheGroundIsThatOfTheTouchdownWhateverTheEstimateDoes) {
   MissionRig rig;
   Descend(rig);

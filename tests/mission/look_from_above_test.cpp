@@ -45,10 +45,14 @@ TEST(LookFromAboveWords, AreSettledByOneMapThatShowsTheAirOnTheWay) {
   rig.Arm();
   const MissionStatus& status = rig.mission.status();
   EXPECT_FALSE(status.can_approve);
+  EXPECT_TRUE(FindLimit(status.armed_limits, LimitId::kAirSeen)->over);
   for (const double on_way_m : {5.1, 4.9}) {
     rig.Site(101)->air_on_way_m = on_way_m;
     rig.Run(0.3);
     EXPECT_TRUE(status.can_approve) << on_way_m << " " << status.cannot_approve_reason;
+    for (const auto& rows : {status.armed_limits, status.limits}) {
+      EXPECT_FALSE(FindLimit(rows, LimitId::kAirSeen)->over) << on_way_m;
+    }
   }
   ASSERT_TRUE(rig.Do(DisarmSite{}).ok());
   rig.Run(0.3);

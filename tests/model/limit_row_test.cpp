@@ -8,6 +8,7 @@
 #include "engine/core/random.h"
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
+#include "engine/model/site_standing.h"
 #include "engine/model/size_words.h"
 
 namespace palace {
@@ -128,6 +129,18 @@ TEST(SiteLimits, SayWhatTheVerdictOfTheSiteSays) {
     EXPECT_EQ(noise->value, site.height_m.three_sigma);
     EXPECT_EQ(noise->enforced_by, EnforcedBy::kNobody);
     EXPECT_FALSE(noise->over);
+    EXPECT_EQ(FindLimit(rows, LimitId::kAirSeen), nullptr) << "nobody asked";
+    site.air_seen_m = random.Uniform(0, 12);
+    const std::vector<LimitRow> asked = SiteLimits(site, settings);
+    const LimitRow* air = FindLimit(asked, LimitId::kAirSeen);
+    ASSERT_NE(air, nullptr);
+    EXPECT_EQ(air->value, site.air_seen_m);
+    EXPECT_EQ(air->limit, kLeastAirSeen_m);
+    EXPECT_TRUE(air->is_least);
+    EXPECT_EQ(air->enforced_by, EnforcedBy::kGuard);
+    EXPECT_EQ(air->over, !IsAirShown(site));
+    site.air_on_way_m = kLeastAirSeen_m;  // the way down shows it
+    EXPECT_FALSE(FindLimit(SiteLimits(site, settings), LimitId::kAirSeen)->over);
   }
 }
 

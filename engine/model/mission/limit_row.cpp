@@ -7,6 +7,7 @@
 #include "engine/core/rounding.h"
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
+#include "engine/model/site_standing.h"
 #include "engine/model/size_words.h"
 
 namespace palace {
@@ -134,6 +135,18 @@ std::vector<LimitRow> SiteLimits(const LandingSite& site, const SladSettings& se
                          .limit = settings.limits.max_deviation_m,
                          .unit = "cm",
                          .shown_per_unit = 100}));
+  // Where nobody asked for it (surveys) there is no such row. Less is enough where the way down
+  // shows the rest.
+  if (!std::isnan(site.air_seen_m)) {
+    const bool on_way = site.air_seen_m < kLeastAirSeen_m && IsAirShown(site);
+    rows.push_back(Judged({.id = LimitId::kAirSeen,
+                           .label = "Air over it seen",
+                           .value = site.air_seen_m,
+                           .limit = kLeastAirSeen_m,
+                           .is_least = true,
+                           .unit = "m",
+                           .enforced_by = on_way ? EnforcedBy::kNobody : EnforcedBy::kGuard}));
+  }
   return rows;
 }
 

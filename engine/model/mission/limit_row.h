@@ -23,6 +23,7 @@ enum class LimitId : std::uint8_t {
   kUnknownCells,
   kProbability,
   kHeightNoise,
+  kAirSeen,
   kApproach,
   // of the approach and the descent
   kOffPath,

@@ -31,7 +31,7 @@ Names NamesOf(MissionState state) {
     case MissionState::kHold:
       return {"HOLD", "Hold"};
     case MissionState::kAborting:
-      return {"ABORTING", "Aborting"};
+      return {"ABORTING", "Wave-off"};
     case MissionState::kLanded:
       return {"LANDED", "Landed"};
   }

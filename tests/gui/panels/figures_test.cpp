@@ -167,5 +167,17 @@ TEST(Evidence, ASizeLostInItsNoiseIsToldByWhatItIsBelow) {
             "Largest step 2.6 ± 0.7 cm max 15 cm, guard");
 }
 
+TEST(Evidence, TellsHowFarUpTheAirOverTheSiteWasSeen) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  MissionStatus& m = snap.flight.Edit().mission;
+  m.armed->air_seen_m = 6.43;
+  m.armed_limits = SiteLimits(*m.armed, snap.session->settings.slad);
+  const FlyWindow window(1920, 1080, snap);
+  const auto* row = window.ui.items.Find("evidence/Air over it seen");
+  ASSERT_NE(row, nullptr);
+  EXPECT_EQ(row->text, "Air over it seen 6.4 m min 5 m, guard");
+  ExpectTextsInPanels(window.ui.items);
+}
+
 }  // namespace
 }  // namespace palace

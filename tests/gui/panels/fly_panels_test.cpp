@@ -210,7 +210,9 @@ TEST(FlyLimits, AfterLandingAnUnlockedTrackerIsUnknownNotOverALimit) {
   RowOf(snap, LimitId::kCoherence).value = NAN;
   FlyWindow window(1920, 1080, snap);
   EXPECT_NE(window.ui.items.Find("evidence/Coherence")->text.find("––"), std::string::npos);
-  EXPECT_TRUE(HasText(window.ui.items, "On the ground"));
+  EXPECT_TRUE(HasText(window.ui.items, "None in force"));
+  const std::string slope = window.ui.items.Find("evidence/Slope")->text;
+  EXPECT_NE(slope.find("max 10"), std::string::npos) << slope;
   EXPECT_FALSE(HasText(window.ui.items, "1 over a limit"));
 }
 
