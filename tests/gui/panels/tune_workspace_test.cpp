@@ -1,32 +1,13 @@
 // Tune: texts stay in their panels; sliders, typing, undo, apply ask for the right thing.
 #include "gui/panels/tune/tune.h"
 #include "tests/gui/panels/panel_checks.h"
+#include "tests/gui/panels/previewing.h"
 #include "tests/support/fake_snapshot.h"
 #include "tests/support/fake_sweep.h"
 #include "tests/support/ui_harness.h"
 
 namespace palace {
 namespace {
-
-/// A snapshot with a preview: slope 6° instead of 10°, another best site.
-EngineSnapshot Previewing(MissionState state) {
-  EngineSnapshot snap = fake::Snapshot(state, SourceKind::kSimulation);
-  snap.session.Edit().preview_settings.slad.limits.max_slope_deg = 6;
-  snap.session.Edit().preview_settings.slad.limits.max_deviation_m = 0.06;
-  snap.session.Edit().preview_settings.slad.fusion.frames_fused = 24;
-  snap.session.Edit().preview_hash = 0x91c07e0000000000;
-  auto preview = std::make_shared<TerrainDecision>(*fake::Decision(
-      snap.sensors->X_WC, snap.session->preview_settings.slad, snap.session->preview_hash));
-  std::swap(preview->selection.sites[0], preview->selection.sites[1]);
-  snap.terrain.Edit().preview = preview;
-  return snap;
-}
-
-void MoveTwoLimits(SettingHistory& history) {
-  const EngineSnapshot before = fake::Snapshot(MissionState::kProposed);
-  history.Remember(CommandAction(SetSetting{"slad.max_slope_deg", 6}), before, {});
-  history.Remember(CommandAction(SetSetting{"slad.max_deviation_m", 0.06}), before, {});
-}
 
 Rect Body() { return BodyOf(1920, 1080); }
 
@@ -353,75 +334,6 @@ TEST(LimitsName, CallsNothingDefaultsThatIsNot) {
   EXPECT_EQ(LimitsName(state, applied), "r50-field + 1 change");
   applied.slad.limits.max_step_m = 0.12;
   EXPECT_EQ(LimitsName(state, applied), "r50-field + 2 changes");
-}
-
-TEST(TuneSweep, TellsWhereTheBestPlaceChangesForTheLimitMovedLast) {
-  UiHarness ui(1920, 1080);
-  const EngineSnapshot snap = Previewing(MissionState::kProposed);  // 6 cm
-  TuneState state;
-  const auto draw = [&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); };
-  ui.Frame(draw);
-  EXPECT_EQ(state.swept.limit, "slad.max_slope_deg");
-  EXPECT_TRUE(HasText(ui.items, "Being worked out"));
-  MoveTwoLimits(state.history);
-  state.sweep = fake::RoughnessSweep(snap);
-  ui.Frame(draw);
-  EXPECT_EQ(state.swept.limit, "slad.max_deviation_m");
-  EXPECT_TRUE(HasText(ui.items, "Below 5.0 cm the best is a new place, not B."));
-  EXPECT_TRUE(HasText(ui.items, "Map 1.5 s old"));
-  EXPECT_TRUE(HasText(ui.items, "preview 6.0 cm"));
-  EXPECT_TRUE(HasText(ui.items, "applied 10.0 cm"));
-  std::vector<std::string> best;
-  for (const Item& item : ui.items.items()) {
-    if (item.name.starts_with("sweep/best/")) {
-      best.push_back(item.text);
-    }
-  }
-  EXPECT_EQ(best, (std::vector<std::string>{"no site", "new", "B", "A"}));
-}
-
-TEST(TuneSweep, SaysThatAnotherAnswerIsOnItsWay) {
-  UiHarness ui(1920, 1080);
-  const EngineSnapshot snap = Previewing(MissionState::kProposed);
-  TuneState state;
-  state.swept.limit = "slad.max_deviation_m";
-  auto older = std::make_shared<LimitSweep>(*fake::RoughnessSweep(snap));
-  older->others.slad.limits.max_slope_deg = 11;
-  state.sweep = older;
-  ui.Frame([&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); });
-  EXPECT_TRUE(HasText(ui.items, "Being worked out anew"));
-  older->others.slad.limits.max_slope_deg = 6;
-  older->others.slad.limits.max_deviation_m = 0.3;  // its own value means nothing
-  ui.Frame([&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); });
-  EXPECT_TRUE(HasText(ui.items, "Map 1.5 s old"));
-}
-
-TEST(TuneSweep, APressOnThePlotMovesTheLimitAndChevronsChooseAnother) {
-  UiHarness ui(1920, 1080);
-  const EngineSnapshot snap = Previewing(MissionState::kProposed);
-  TuneState state;
-  state.swept.limit = "slad.max_deviation_m";
-  state.sweep = fake::RoughnessSweep(snap);
-  const auto draw = [&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); };
-  ui.Frame(draw);
-  const Rect plot = ui.items.Find("sweep/plot")->rect;
-  ui.MoveTo(ImVec2(plot.x + plot.w * 7 / 11, plot.centre().y));  // 1 to 12 cm
-  ui.Frame(draw);
-  ui.Button(true);
-  ui.Frame(draw);
-  EXPECT_TRUE(HasText(ui.items, "At 8.0 cm: 80 m², best B, 3.4 m clear."));
-  ui.Button(false);
-  ui.Frame(draw);
-  const auto set = ui.LastCommand<SetSetting>();
-  EXPECT_EQ(set.name, "slad.max_deviation_m");
-  EXPECT_NEAR(set.value, 0.08, 0.001);
-  ui.Click("sweep/next", draw);
-  EXPECT_EQ(state.swept.limit, "slad.max_step_m");
-  ui.Click("sweep/previous", draw);
-  ui.Click("sweep/previous", draw);
-  EXPECT_EQ(state.swept.limit, "slad.max_slope_deg");
-  ui.Click("sweep/previous", draw);
-  EXPECT_TRUE(MaySweep(*FindSetting(state.swept.limit))) << state.swept.limit;
 }
 
 }  // namespace
