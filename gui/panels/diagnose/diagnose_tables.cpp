@@ -14,6 +14,15 @@
 
 namespace palace {
 
+namespace {
+
+/// Most guards ask of the selected site: without one they neither pass nor fail.
+bool IsAsked(const GuardResult& guard, const MissionStatus& mission) {
+  return mission.armed || guard.pass || guard.reason != "Select a site first";
+}
+
+}  // namespace
+
 void DrawGuards(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
@@ -39,18 +48,25 @@ void DrawGuards(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
     if (y + s.Px(10) > rect.bottom()) {
       return;
     }
-    DrawIcon(Canvas(), guard.pass ? Icon::kDone : Icon::kFails, {content.x + s.Px(20), y}, s.Px(12),
-             guard.pass ? p.text2 : p.text1);
+    const bool asked = IsAsked(guard, snap.flight->mission);
+    const bool fails = asked && !guard.pass;
+    DrawIcon(Canvas(),
+             fails   ? Icon::kFails
+             : asked ? Icon::kDone
+                     : Icon::kOff,
+             {content.x + s.Px(20), y}, s.Px(12), fails ? p.text1 : p.text2);
     DrawText(ui, s.caption, p.text3, content.x + s.Px(36), y, GuardName(guard.id));
-    const float width = DrawText(ui, guard.pass ? s.body : s.medium, guard.pass ? p.text2 : p.text1,
-                                 name_x, y, guard.name);
+    const float width =
+        DrawText(ui, fails ? s.medium : s.body, fails ? p.text1 : p.text2, name_x, y, guard.name);
     ui.items.Add(std::string("guard/") + GuardName(guard.id),
                  {content.x, y - pitch / 2, content.w, pitch}, guard.pass,
-                 guard.name + (guard.pass ? " passes" : " fails: " + guard.reason));
+                 guard.name + (guard.pass ? " passes"
+                               : asked    ? " fails: " + guard.reason
+                                          : ": " + guard.reason));
     const std::string words = guard.pass ? std::string("Passes") : guard.reason;
     const float room = content.right() - s.Px(12) - name_x - width - s.Px(16);
     if (TextWidth(s.body, words) <= room) {
-      DrawText(ui, s.body, guard.pass ? p.text3 : p.text1, content.right() - s.Px(12), y, words,
+      DrawText(ui, s.body, fails ? p.text1 : p.text3, content.right() - s.Px(12), y, words,
                Align::kRight);
       y += pitch;
       continue;

@@ -130,7 +130,7 @@ ApplyWords WordsFor(const EngineSnapshot& snap, const TuneFacts& f) {
   w.can_apply = true;
   const auto& armed = snap.flight->mission.armed;
   w.sentence = session.apply_drops && armed
-                   ? std::string("Applying drops site ") + armed->letter + "."
+                   ? std::string("Applying ends the selection of ") + armed->letter + "."
                    : count + (f.pending == 1 ? " waits" : " wait") + " to be applied.";
   w.detail = RankEffect(f) + hash;
   return w;

@@ -31,6 +31,21 @@ TEST(DiagnoseWorkspace, EachCameraHasItsCounters) {
   }
 }
 
+// "Vehicle did not restart" with a cross would read as its opposite.
+TEST(DiagnoseWorkspace, AGuardOfASiteFailsOnlyOnceASiteIsSelected) {
+  for (const MissionState state : {MissionState::kProposed, MissionState::kArmed}) {
+    EngineSnapshot snap = fake::Snapshot(state);
+    GuardResult& guard = snap.flight.Edit().mission.guards[8];
+    guard.pass = false;
+    guard.reason = "Select a site first";
+    UiHarness ui(1920, 1080);
+    DiagnoseState diagnose;
+    ui.Frame([&](UiFrame& f) { DrawDiagnoseWorkspace(snap, BodyOf(1920, 1080), diagnose, f); });
+    EXPECT_EQ(ui.items.Find("guard/G9")->text,
+              guard.name + (state == MissionState::kArmed ? " fails: " : ": ") + guard.reason);
+  }
+}
+
 TEST(DiagnoseWorkspace, EveryLossHasItsCountAndItsMeaning) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
   const auto draw = [&](UiHarness& ui, const WindowSize& size) {

@@ -286,7 +286,7 @@ TEST(Tune, SaysWhenLimitsApplyAsTheEngineDoes) {
     const char* sentence;
   } table[] = {
       {LimitsApply::kAtOnce, false, false, "Limits apply at once."},
-      {LimitsApply::kWhenApplied, true, true, "Applying drops site A."},
+      {LimitsApply::kWhenApplied, true, true, "Applying ends the selection of A."},
       {LimitsApply::kWhenApplied, false, true, "1 change waits to be applied."},  // under HOLD
       {LimitsApply::kNotNow, false, true, "1 change, preview only."},
       {LimitsApply::kWhenApplied, true, false, "Nothing waits to be applied."},
