@@ -1,6 +1,8 @@
 #include "engine/mission/geometry.h"
 
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 
 #include "engine/core/sun_position.h"
 #include "engine/core/units.h"
@@ -8,6 +10,7 @@
 #include "engine/mission/descent_limits.h"
 #include "engine/model/find_site.h"
 #include "engine/model/wind.h"
+#include "engine/search/ground_looks.h"
 
 namespace palace {
 namespace {
@@ -64,7 +67,7 @@ HeadingCurve CurveFor(const MissionMemory& m, const LandingSite& site) {
   conditions.wanted_rad = straight_rad;
   conditions.depression_rad = Rad(settings.glide_slope_deg);
   conditions.max_tailwind_mps = settings.max_tailwind_mps;
-  conditions.blocked = BlockedHeadings(site, straight_rad);
+  conditions.blocked = BlockedHeadings(OverSeenGround(m, site), straight_rad);
   const double wind_mps = KnownWind(m, m.facts.now);
   if (WindHasDirection(wind_mps)) {
     conditions.wind_mps = wind_mps;
@@ -82,7 +85,7 @@ HeadingCurve CurveFor(const MissionMemory& m, const LandingSite& site) {
 ApproachPlan PlanFor(const MissionMemory& m, const LandingSite& site) {
   const double straight_rad = StraightHeading(m.facts.skid_centre_W, site.p_WS);
   const HeadingCurve curve = CurveFor(m, site);
-  const ApproachCourse course = ChooseCourse(site, straight_rad, curve);
+  const ApproachCourse course = ChooseCourse(OverSeenGround(m, site), straight_rad, curve);
   ApproachPlan plan = PlanOn(m, course);
   if (plan.turned() && site.corridor_clear) {
     const HeadingScore& straight = curve.At(straight_rad);
@@ -135,6 +138,29 @@ bool IsCommitted(const MissionMemory& m) {
   return !m.status.IsLook() && HeightAboveSite(m) < m.facts.settings.slad.fusion.commit_height_m;
 }
 
+LandingSite OverSeenGround(const MissionMemory& m, LandingSite site) {
+  const double height_m = site.p_WS.z() - m.facts.skid_centre_W.z();
+  if (!m.status.seen || !std::isfinite(height_m)) {
+    return site;
+  }
+  const Lander& lander = m.facts.settings.slad.lander;
+  const Eigen::Vector2d p_WS = site.p_WS.head<2>();
+  // The tail still hangs over what lies behind where the slope begins.
+  const double length_m =
+      height_m / std::tan(Rad(m.facts.settings.mission.glide_slope_deg)) + lander.radius_m();
+  for (int sector = 0; sector < kApproachSectors; ++sector) {
+    const double bearing_rad = HeadingFromSector(sector) + std::numbers::pi;
+    const Eigen::Vector2d from(std::cos(bearing_rad), std::sin(bearing_rad));
+    const unsigned side = 1U << sector;
+    if ((site.clear_approaches & side) != 0 &&
+        !IsLookedAt(*m.status.seen, p_WS + site.clear_radius_m * from, p_WS + length_m * from,
+                    lander.rotor_diameter_m / 2)) {
+      site.clear_approaches = static_cast<std::uint8_t>(site.clear_approaches & ~side);
+    }
+  }
+  return site;
+}
+
 void PlanApproach(MissionMemory& m) {
   if (m.status.armed && !m.status.approach && m.facts.skid_centre_W.allFinite()) {
     m.armed.straight_clear = m.status.armed->corridor_clear;
@@ -149,7 +175,8 @@ std::vector<ApproachCourse> CoursesOpen(const MissionMemory& m) {
     return {};
   }
   const LandingSite& newest = m.newest ? *m.newest : *m.status.armed;
-  return ClearCourses(newest, StraightHeading(m.facts.skid_centre_W, m.status.armed->p_WS),
+  return ClearCourses(OverSeenGround(m, newest),
+                      StraightHeading(m.facts.skid_centre_W, m.status.armed->p_WS),
                       m.armed.straight_clear);
 }
 

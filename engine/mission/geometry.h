@@ -19,6 +19,11 @@ double HeightAboveSite(const MissionMemory& memory);
 /// to nothing.
 bool IsCommitted(const MissionMemory& memory);
 
+/// The site, of its clear sides those alone whose way down, from where it begins, leads over ground
+/// that was looked at (status.seen): what no camera saw may be a roof. As it is where nobody keeps
+/// count of looks, or the vehicle's place is not known.
+LandingSite OverSeenGround(const MissionMemory& memory, LandingSite site);
+
 /// Freezes the approach of the armed site, once, as soon as the vehicle's place is known.
 void PlanApproach(MissionMemory& memory);
 

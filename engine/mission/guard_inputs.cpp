@@ -37,6 +37,12 @@ void JudgeArmedSite(const MissionMemory& m, Timestamp now, GuardInputs& in) {
   in.site_letter = m.status.armed->letter;
   in.site_holds = m.site.evaluated() && m.site.newest().holds();
   in.site_reason = m.site.newest().reason;
+  const auto& vehicle = m.watch.vehicle();
+  if (vehicle && vehicle->on_ground) {
+    in.site_holds = false;
+    in.site_reason = "Vehicle on the ground: a descent begins in a hover";
+    return;
+  }
   if (in.site_holds && !m.site.newest().old_ground.empty()) {
     in.site_holds = false;
     in.site_reason = m.site.newest().old_ground;
@@ -51,7 +57,10 @@ void JudgeArmedSite(const MissionMemory& m, Timestamp now, GuardInputs& in) {
   if (in.site_holds && !m.site.newest().approach_clear) {
     // What is approved is the way that is planned.
     in.site_holds = false;
-    in.site_reason = words::ApproachBlocked(in.site_letter);
+    const LandingSite& newest = m.newest ? *m.newest : *m.status.armed;
+    in.site_reason =
+        words::ApproachBlocked(in.site_letter, newest.clear_approaches != 0 &&
+                                                   OverSeenGround(m, newest).clear_approaches == 0);
   }
   if (in.site_holds && m.status.area) {
     const std::string why =

@@ -144,7 +144,7 @@ struct MissionMemory {
   bool wave_off_acknowledged = false;
   bool vision_allowed = false;
   Timestamp vision_good_at;
-  double sink_mps = NAN;  ///< by the estimate, while it was last in the air
+  double sink_mps = NAN;                  ///< by the estimate, while it was last in the air
   std::optional<Timestamp> beside_since;  ///< too far off the site, lower than 1 m
   Timestamp map_seen_at;
   /// The ground of the armed site was measured last; at the earliest when the descent began.

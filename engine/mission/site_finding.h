@@ -1,12 +1,13 @@
 // What one map says of the site that was approved.
 //
 //   gross      an obstacle under the lander, beyond twice its limit and beyond 3 sigma of it
-//   over       some figure is over its limit, unknown, or the site is off the map; or the vehicle is
+//   over       some figure is over its limit, unknown, or the site is off the map; or the vehicle
+//   is
 //              on its way and something stands in it
 //   doubtful   inside every limit, but: the limit lies within the 3 sigma of a figure although the
 //              site was confirmed before, the approach is blocked before any approval, a hazard
-//              leaves less than half the room that was approved, or the ground was last measured too
-//              long ago
+//              leaves less than half the room that was approved, or the ground was last measured
+//              too long ago
 //   good       none of these
 //
 // The vehicle's limits are fixed; what distance changes is the sigma. A provisional site is one

@@ -55,7 +55,7 @@ WaveOffReport WaveOffNow(const MissionMemory& m, Timestamp now) {
   const double heard_s = m.watch.LinkAge(now);
   const bool over = WaveOffIsOver(m, now);
   if (SaidThatItIsDone(m, now)) {
-    return {Phase::kDone, heard_s, over};
+    return {m.watch.vehicle()->on_ground ? Phase::kStands : Phase::kDone, heard_s, over};
   }
   // A hover that was reported since is believed a little later: until then it is under way.
   if (HeardSinceWaveOff(m, now) && m.abort_seen) {

@@ -210,8 +210,10 @@ std::string LookedAt(const MissionMemory& m, double height_m) {
          WithNumbers(" was looked at from %.1f m above it: ", height_m) + found;
 }
 
-std::string ApproachBlocked(const std::string& letter) {
-  return std::string("Approach to site ") + letter + " is blocked";
+std::string ApproachBlocked(const std::string& letter, bool round_unseen) {
+  return std::string("Approach to site ") + letter + " is blocked" +
+         (round_unseen ? ", and under the ways round it ground was not looked at: look there first"
+                       : "");
 }
 
 std::string InApproach(const std::optional<ApproachObstacle>& obstacle) {
@@ -315,6 +317,9 @@ std::string WaveOffTold(const WaveOffReport& report) {
     case Phase::kClimbs:
       return old ? ". The vehicle climbed when it was heard last" + ago
                  : ". Vehicle climbs. When it hovers, confirm \"Wave-off complete\".";
+    case Phase::kStands:
+      return old ? ". The vehicle said that it is on the ground when it was heard last" + ago
+                 : ". Vehicle says that it is on the ground.";
     case Phase::kDone:
       break;
   }

@@ -143,7 +143,8 @@ std::string LookFromAbove(const std::string& why);
 std::string NothingToLookAt(const std::string& letter);
 /// "Site B was looked at from 12.1 m above it: confirmed", or what the newest map found.
 std::string LookedAt(const MissionMemory& memory, double height_m);
-std::string ApproachBlocked(const std::string& letter);
+/// `round_unseen`: ways round are clear, over ground that was not looked at.
+std::string ApproachBlocked(const std::string& letter, bool round_unseen);
 /// "Something 3.2 m high stands in the approach, 4.5 m south of the site". Null: not known what.
 std::string InApproach(const std::optional<ApproachObstacle>& obstacle);
 /// After what is told of a selection; empty for a straight approach, or none yet.

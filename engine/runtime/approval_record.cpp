@@ -72,7 +72,8 @@ void ApprovalRecords::Add(const EngineSnapshot& snapshot) {
     record.last_state = mission.state;
     record.why = mission.why;
   }
-  open_ = ours;  // the state that ended it is the last that counts
+  // The state that ended it is the last that counts; landed, it is over, though it still stands.
+  open_ = ours && mission.state != MissionState::kLanded;
 }
 
 }  // namespace palace

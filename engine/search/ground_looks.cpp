@@ -34,6 +34,29 @@ void AddLook(SeenGround& seen, const GroundView& view, const FlyTo& from) {
   }
 }
 
+bool IsLookedAt(const SeenGround& seen, const Eigen::Vector2d& from_W, const Eigen::Vector2d& to_W,
+                double half_width_m) {
+  const Eigen::Vector2d way = to_W - from_W;
+  const double length_m = way.norm();
+  const Eigen::Vector2d along = length_m > 0 ? Eigen::Vector2d(way / length_m) : way;
+  const Eigen::Vector2d aside(-along.y(), along.x());
+  const auto steps = [](double span_m) {  // four in a square: none that is crossed is left out
+    return std::max(1, static_cast<int>(std::ceil(4 * span_m / SeenGround::kSquare_m)));
+  };
+  const int lengthwise = steps(length_m), across = steps(2 * half_width_m);
+  for (int i = 0; i <= lengthwise; ++i) {
+    for (int k = 0; k <= across; ++k) {
+      const Eigen::Vector2d at = from_W + i * length_m / lengthwise * along +
+                                 (2.0 * k / across - 1) * half_width_m * aside;
+      const auto square = seen.squares.CellFromPoint(at.x(), at.y());
+      if (!square || !seen.IsLookedAt(*square)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 std::vector<Cell> SquaresInView(const GroundView& view, double heading_rad, double below_m) {
   std::vector<Cell> squares;
   const double camera_below_m = below_m - view.p_BC().z();

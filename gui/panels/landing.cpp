@@ -25,6 +25,8 @@ std::string WaveOffHeadline(const WaveOffReport& report, double silent_s) {
   switch (report.phase) {
     case Phase::kDone:
       return Heard("Waved off, hovering", age_s);
+    case Phase::kStands:
+      return Heard("Waved off, on the ground", age_s);
     case Phase::kFlies:
       return Heard("Wave-off under way", age_s);
     case Phase::kClimbs:

@@ -52,10 +52,12 @@ struct VerdictLook {
   ImU32 colour;
 };
 
-VerdictLook LookOf(SiteVerdict verdict, const Palette& p) {
-  switch (verdict) {
+/// One map over a limit does not end a site, but is none that it passed.
+VerdictLook LookOf(const SiteRecheck& check, const Palette& p) {
+  switch (check.verdict) {
     case SiteVerdict::kHolds:
-      return {Icon::kDone, p.text2};
+      return check.holds ? VerdictLook{Icon::kDone, p.text2}
+                         : VerdictLook{Icon::kCaution, p.caution};
     case SiteVerdict::kDegraded:
       return {Icon::kCaution, p.caution};
     case SiteVerdict::kLost:
@@ -118,7 +120,7 @@ void DrawChecksColumn(const EngineSnapshot& snap, const Rect& column, bool narro
   float y = column.y + s.Px(14);
   const bool roomy = column.w > s.Px(130);
   for (const SiteRecheck* check : Spaced(snap.flight->mission.rechecks, narrow ? 3 : 4)) {
-    const VerdictLook look = LookOf(check->verdict, p);
+    const VerdictLook look = LookOf(*check, p);
     DrawIcon(Canvas(), look.icon, {column.x + s.Px(6), y}, s.Px(12), look.colour);
     DrawText(ui, s.body, p.text2, column.x + s.Px(20), y,
              Fixed(check->height_above_site_m, 1) + " m");

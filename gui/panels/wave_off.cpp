@@ -42,6 +42,8 @@ std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, cons
       return Heard("Climbing", age_s);
     case Phase::kDone:
       return Heard("Hovering", age_s);
+    case Phase::kStands:
+      return Heard("On the ground", age_s);
   }
   if (JustPressed(state, ui.ui_time_s)) {
     return "Sent";
@@ -58,7 +60,8 @@ std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, cons
 bool IsUnderWay(const EngineSnapshot& snap, const FrameState& state, double now_s) {
   using Phase = WaveOffReport::Phase;
   const Phase phase = snap.flight->mission.wave_off.phase;
-  return JustPressed(state, now_s) || (phase != Phase::kNone && phase != Phase::kDone);
+  return JustPressed(state, now_s) ||
+         (phase != Phase::kNone && phase != Phase::kDone && phase != Phase::kStands);
 }
 
 }  // namespace

@@ -55,5 +55,21 @@ TEST(ApprovalRecords, EndWithTheStateThatEndedThem) {
   EXPECT_EQ(records.all()[1].approval.id, 8u);
 }
 
+// A wave-off pressed long after a touchdown is none of that approval.
+TEST(ApprovalRecords, EndWithTheTouchdown) {
+  ApprovalRecords records;
+  EngineSnapshot flight = Approved(7, 3);
+  records.Add(flight);
+  MissionStatus& m = flight.flight.Edit().mission;
+  m.state = MissionState::kLanded;
+  m.why = "Vehicle says it is on the ground";
+  records.Add(flight);
+  m.state = MissionState::kAborting;
+  m.why = "Waved off by the operator";
+  records.Add(flight);
+  EXPECT_EQ(records.all()[0].last_state, MissionState::kLanded);
+  EXPECT_EQ(records.all()[0].why, "Vehicle says it is on the ground");
+}
+
 }  // namespace
 }  // namespace palace

@@ -51,6 +51,17 @@ TEST(SeenGround, IsLookedAtAfterSoManyMapsWithItInView) {
   EXPECT_FALSE(search.seen.IsLookedAt(*search.seen.squares.CellFromPoint(-15, 1))) << "behind";
 }
 
+TEST(SeenGround, AStripIsLookedAtWhereEverySquareUnderItIs) {
+  Search search({{0, 0, -15}, 0});
+  search.Look();
+  EXPECT_TRUE(IsLookedAt(search.seen, {12, 0}, {18, 0}, 1.5));
+  EXPECT_TRUE(IsLookedAt(search.seen, {15, -2}, {15, 2}, 1.5)) << "across";
+  EXPECT_FALSE(IsLookedAt(search.seen, {15, 0}, {0, 0}, 1.5)) << "under the vehicle";
+  EXPECT_FALSE(IsLookedAt(search.seen, {15, 0}, {15, -20}, 1.5)) << "beside the view";
+  EXPECT_FALSE(IsLookedAt(search.seen, {12, 0}, {18, 0}, 20)) << "too wide";
+  EXPECT_FALSE(IsLookedAt(search.seen, {15, 0}, {500, 0}, 1.5)) << "beyond the squares";
+}
+
 TEST(SeenGround, TheSquaresOfAHeadingAreThoseOfTheView) {
   const GroundView view(Rig());
   for (const double heading_rad : {0.0, 0.7, 2.5, -1.9}) {

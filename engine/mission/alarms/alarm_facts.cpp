@@ -6,6 +6,7 @@
 #include "engine/mission/geometry.h"
 #include "engine/mission/wave_off.h"
 #include "engine/mission/wording.h"
+#include "engine/model/mission/landed_place.h"
 #include "engine/model/wind.h"
 
 namespace palace {
@@ -83,6 +84,7 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
                     m.site.VerdictAt(now) == SiteVerdict::kDegraded &&
                     !(state == MissionState::kDescending && IsCommitted(m));
   f.site_reason = m.site.reason();
+  f.not_on_site = state == MissionState::kLanded && MissedSite(m.status);
   f.no_site = decision != nullptr && decision->selection.sites.empty() &&
               !decision->selection.waits && state <= MissionState::kProposed;
   f.no_site_reason = decision != nullptr ? decision->selection.none_reason : "";

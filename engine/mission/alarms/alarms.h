@@ -75,6 +75,7 @@ struct AlarmFacts {
   bool site_degraded = false;
   std::string site_reason{};
   bool no_site = false;
+  bool not_on_site = false;  ///< it says that it is on the ground, elsewhere
   std::string no_site_reason{};
   double vision_outage_s = NAN;       ///< of a descent on vision
   double max_vision_outage_s = NAN;   ///< setting

@@ -220,6 +220,15 @@ const AlarmRow kRows[] = {
                   ". What holds the site may drift: watch it" +
                   (f.approve_ahead ? " before you approve." : ", hold or wave off.");
          }},
+    {.id = AlarmId::kNotOnSite,
+     .level = AlarmLevel::kWarning,
+     .of_mission = true,
+     .immediate = true,
+     .present = [](const Facts& f, double) { return f.not_on_site; },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return f.why + ". It may stand on a roof or hang in a wire: look before anything moves.";
+         }},
     {.id = AlarmId::kForeignCommand,
      .level = AlarmLevel::kWarning,
      .immediate = true,

@@ -72,6 +72,7 @@ constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
     "energy_low",
     "tailwind",
     "trackers_apart",
+    "not_on_site",
 };
 
 }  // namespace

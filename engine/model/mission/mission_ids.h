@@ -93,8 +93,9 @@ enum class AlarmId : std::uint8_t {
   kEnergyLow,
   kTailwind,
   kTrackersApart,
+  kNotOnSite,
 };
-inline constexpr std::size_t kAlarmCount = 61;
+inline constexpr std::size_t kAlarmCount = 62;
 /// "gps_error".
 const char* AlarmName(AlarmId id);
 /// Empty for a name that no alarm has.

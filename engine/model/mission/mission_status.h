@@ -168,7 +168,8 @@ struct WaveOffReport {
     kAccepted,    ///< it answered
     kFlies,       ///< it says that it flies it; from its hover there may be nothing to climb
     kClimbs,      ///< and that it rises
-    kDone,        ///< it says that it hovers or stands again
+    kDone,        ///< it says that it hovers again
+    kStands,      ///< it says that it stands on the ground
   };
   Phase phase = Phase::kNone;
   double age_s = NAN;  ///< of the word that says so; before any, how long it is waited for

@@ -154,8 +154,10 @@ std::string ReasonOfBest(SiteRanking ranking, const SiteSelection& selection) {
   // One that a map called unsafe a moment ago may be wider, and not lead.
   const bool outdone =
       std::any_of(selection.sites.begin(), selection.sites.end(), [&](const LandingSite& other) {
-        return ranking == SiteRanking::kFarthest ? Room(other) > Room(best) + kWider_m
-                                                 : other.cost < best.cost - kCheaper;
+        return ranking == SiteRanking::kFarthest
+                   ? std::max(Room(other) - Room(best),
+                              other.safe_distance_m - best.safe_distance_m) > kWider_m
+                   : other.cost < best.cost - kCheaper;
       });
   const char* criterion = outdone || ByHidden(best, next)     ? "Leads: "
                           : ranking == SiteRanking::kFarthest ? "Widest: "

@@ -26,6 +26,7 @@ TEST(WaveOffPanel, TellsWhatTheVehicleSaidAfterThePressAndItsAge) {
       {{Phase::kFlies, 0.3}, "Under way", false},
       {{Phase::kClimbs, 0.3}, "Climbing", false},
       {{Phase::kDone, 0.3, true}, "Hovering", true},
+      {{Phase::kStands, 0.3, true}, "On the ground", true},
   };
   for (const auto& row : table) {
     for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
