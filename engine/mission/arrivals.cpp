@@ -2,6 +2,7 @@
 
 #include "engine/mission/going.h"
 #include "engine/mission/wording.h"
+#include "engine/model/settings/sound_settings.h"
 
 namespace palace {
 namespace {
@@ -169,6 +170,9 @@ void RememberEnergy(MissionMemory& m, const MissionInputs& in) {
 
 void RememberFacts(MissionMemory& m, const MissionInputs& in) {
   MissionFacts& facts = m.facts;
+  if (!facts.valid || facts.settings_hash != in.limits.settings_hash) {
+    facts.unusual_settings = OutsideUsual(in.limits.settings);
+  }
   facts.valid = true;
   facts.now = in.session.now;
   facts.role = in.session.role;
@@ -202,7 +206,7 @@ void RememberFacts(MissionMemory& m, const MissionInputs& in) {
     m.vision_good_at = in.session.now;
   }
   m.lost_share = LostShare(in.vehicle.channels);
-  m.loss = LossWords(in.vehicle.channels);
+  m.losers = LosersWords(in.vehicle.channels);
   RememberShown(m, in.session);
 }
 

@@ -6,6 +6,7 @@
 #include "engine/mission/geometry.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/wording.h"
+#include "engine/model/settings/sound_settings.h"
 
 namespace palace {
 namespace {
@@ -30,6 +31,7 @@ void JudgeArmedSite(const MissionMemory& m, Timestamp now, GuardInputs& in) {
     in.shown_for_s = SecondsBetween(armed.shown_since, now);
   }
   in.armed_for_s = SecondsBetween(m.status.armed_at, now);
+  in.lander_problem = WhyNotLandable(m.facts.settings.slad.lander);
   in.hashes_unchanged = m.facts.settings_hash == armed.settings_hash &&
                         m.facts.terrain_settings_hash == armed.terrain_settings_hash &&
                         m.facts.calibration_hash == armed.calibration_hash;
@@ -90,7 +92,7 @@ GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
   in.camera_problem = m.pictures.standing().words();
   in.attitude_invalid = std::isfinite(m.watch.PosesInvalidFor(now));
   in.lost_share = m.lost_share;
-  in.loss = m.loss;
+  in.losers = m.losers;
   in.map_age_s =
       m.facts.map_hash != 0 && now >= m.map_seen_at ? SecondsBetween(m.map_seen_at, now) : NAN;
   in.position_healthy = m.facts.position_healthy;

@@ -6,6 +6,7 @@
 #include "engine/core/rounding.h"
 #include "engine/core/text.h"
 #include "engine/mission/descent_limits.h"
+#include "engine/mission/watch/loss_watch.h"
 #include "engine/mission/wording.h"
 
 namespace palace {
@@ -131,7 +132,8 @@ const std::array<GuardRow, kGuardCount> kGuards = {{
          [](const GuardInputs& in, const Limit& limit) {
            std::string why = words::Older("Vehicle status", in.link_age_s, limit.value);
            return why.empty() && 100 * in.lost_share > GuardLimits::lost_percent
-                      ? in.loss + WithNumbers(", max %.0f %%", GuardLimits::lost_percent)
+                      ? LossWords(in.lost_share, LimitWords({GuardLimits::lost_percent, "%", 0}),
+                                  in.losers)
                       : why;
          }},
     {.id = GuardId::kAttitude,
@@ -167,8 +169,9 @@ const std::array<GuardRow, kGuardCount> kGuards = {{
      .words = "Limits and calibration unchanged",
      .why =
          [](const GuardInputs& in, const Limit&) {
-           return NothingArmed(in)
-                      ? std::string(words::kSelectFirst)
+           return NothingArmed(in) ? std::string(words::kSelectFirst)
+                  : !in.lander_problem.empty()
+                      ? in.lander_problem
                       : If(!in.hashes_unchanged,
                            "Limits or calibration changed since the site was selected");
          }},

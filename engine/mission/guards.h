@@ -28,7 +28,7 @@ struct GuardInputs {
   std::string camera_problem{};  ///< PictureFaults::words
   bool attitude_invalid = false;
   double lost_share = NAN;  ///< of the vehicle's samples; NaN blocks nothing
-  std::string loss{};       ///< words for it: LossWords
+  std::string losers{};     ///< LosersWords
   double map_age_s = NAN;
   bool position_healthy = false;
   std::string image_time{};  ///< words::ImageTimeOff
@@ -42,7 +42,8 @@ struct GuardInputs {
   double min_coherence = NAN;
   double shown_for_s = NAN;  ///< evidence of the armed site on screen
   bool hashes_unchanged = false;
-  std::string site_letter;  ///< empty: nothing is armed
+  std::string lander_problem{};  ///< WhyNotLandable
+  std::string site_letter;       ///< empty: nothing is armed
   bool site_holds = false;
   std::string site_reason;
   bool boot_unchanged = false;

@@ -50,6 +50,7 @@ struct MissionFacts {
   std::uint64_t terrain_settings_hash = 0;
   std::uint64_t calibration_hash = 0;
   Settings settings;
+  std::string unusual_settings;  ///< OutsideUsual
   NavigationStatus navigation;
   StereoQuality stereo;
   RangeAgreement range_agreement;
@@ -150,7 +151,7 @@ struct MissionMemory {
   /// The ground of the armed site was measured last; at the earliest when the descent began.
   Timestamp ground_seen_at;
   double lost_share = NAN;  ///< of the vehicle's samples, lately: LostShare
-  std::string loss;         ///< words for it: LossWords
+  std::string losers;       ///< LosersWords
 };
 
 /// Requests (hold, abort, go) have this bit of their number set, approvals do not.

@@ -80,6 +80,7 @@ struct GpsAgreement {
   double off_m = NAN;   ///< of the newest fix from the prediction; NaN before two fixes
   static constexpr double kJump_m = 1;     ///< off beyond it ...
   static constexpr double kDrift_m = 0.3;  ///< ... or by so much in five seconds
+  static constexpr int kFineFixes = 5;     ///< in a row, and it is off no more
 };
 
 /// Attitude and accelerometer against GPS velocities (navigation/gravity_watch.h).
@@ -87,6 +88,7 @@ struct GravityAgreement {
   bool off = false;
   double tilt_deg = NAN;                     ///< by which they part; NaN: not known now
   static constexpr double kLimit_deg = 1.5;  ///< off beyond it
+  static constexpr int kFineFixes = 5;       ///< in a row, and it is off no more
 };
 
 /// The laser range finder against motion and stereo (navigation/laser_watch.h).
@@ -104,6 +106,8 @@ struct LaserHealth {
   static constexpr double kLost_s = 0.5;
   static constexpr double kStuck_s = 0.8;
   static constexpr double kWrong = 0.15;  ///< share of the height
+  static constexpr double kAgrees = 0.1;  ///< nearer than that to stereo ...
+  static constexpr int kFinePairs = 5;    ///< ... so often in a row, and it is wrong no more
 
   /// Of no use for heights, whatever it reads.
   bool lies() const { return state == State::kStuck || state == State::kWrong; }

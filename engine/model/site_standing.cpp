@@ -23,15 +23,17 @@ std::string SureFrom(const LandingSite& site, const std::string& limit) {
                         : limit);
 }
 
-/// "0.12 rocks or holes may be hidden, sure from 8 m above it": one line of the narrowest approve
+/// "0.12 hidden rocks or holes expected, sure from 8 m above it": one line of the narrowest approve
 /// panel; near the limit a third digit tells them apart.
 std::string MayHide(const LandingSite& site) {
   const bool near_limit = site.hidden_things < 2 * kMostHidden;
   return (near_limit ? WithNumbers("%.3f ", ShownBeyond(site.hidden_things, kMostHidden, 3))
                      : WithNumbers("%.2f ", site.hidden_things)) +
-         (IsMarked(site) ? "things may be hidden (unexplained mark), "
-                         : "rocks or holes may be hidden, ") +
-         SureFrom(site, WithNumbers(near_limit ? "to %.3f" : "to %.2f", kMostHidden));
+         (IsMarked(site) ? "hidden things expected (unexplained mark), "
+                         : "hidden rocks or holes expected, ") +
+         (std::isfinite(site.look_height_m)
+              ? SureFrom(site, {})
+              : WithNumbers(near_limit ? "limit %.3f" : "limit %.2f", kMostHidden));
 }
 
 }  // namespace

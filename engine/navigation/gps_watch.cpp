@@ -12,7 +12,7 @@ constexpr double kSigmas = 6;
 constexpr double kGate = 19.8;  // the filter's, of six degrees of freedom
 constexpr double kSettled_s = 10;
 constexpr double kLeastVariance_m2 = 1e-6;
-constexpr int kOffRun = 2, kFineRun = 5;
+constexpr int kOffRun = 2;
 
 /// A sigma that is not known counts as 0.
 Eigen::Vector3d KnownSigmaOf(const GpsFix& fix) {
@@ -81,7 +81,7 @@ void GpsWatch::Add(const GpsFix& fix, const std::optional<FilterEstimate>& predi
   off_run_ = off ? off_run_ + 1 : 0;
   fine_run_ = off ? 0 : fine_run_ + 1;
   status_.drifts = drifts && !jumped;
-  status_.off = status_.off ? fine_run_ < kFineRun : off_run_ >= kOffRun;
+  status_.off = status_.off ? fine_run_ < GpsAgreement::kFineFixes : off_run_ >= kOffRun;
   if (!status_.off || drifts) {
     consistent_since_.reset();
   } else if (!consistent_since_) {

@@ -14,7 +14,7 @@ constexpr std::size_t kLeastFixes = 6;
 constexpr double kImuMemory_s = 2;
 constexpr double kImuGap_s = 0.1;
 constexpr double kSigmas = 6;
-constexpr int kOffRun = 2, kFineRun = 5;
+constexpr int kOffRun = 2;
 
 }  // namespace
 
@@ -109,7 +109,7 @@ void GravityWatch::Judge() {
       status_.tilt_deg > GravityAgreement::kLimit_deg && slope_mps2.norm() > kSigmas * sigma_mps2;
   off_run_ = off ? off_run_ + 1 : 0;
   fine_run_ = off ? 0 : fine_run_ + 1;
-  status_.off = status_.off ? fine_run_ < kFineRun : off_run_ >= kOffRun;
+  status_.off = status_.off ? fine_run_ < GravityAgreement::kFineFixes : off_run_ >= kOffRun;
 }
 
 }  // namespace palace

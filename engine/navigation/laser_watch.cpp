@@ -14,8 +14,6 @@ constexpr double kStep_m = 1;
 constexpr int kStepRun = 3;
 constexpr double kStepUnseen_s = 1;  // no stereo for so long: the new level is believed
 constexpr double kStereoFresh_s = 0.4;
-constexpr double kAgrees = 0.10;
-constexpr int kAgreeRun = 5;
 constexpr double kClimb_m = 2, kLaserScale = 0.2, kStereoScale = 0.12;
 constexpr double kReferenceKept_s = 20;
 
@@ -92,10 +90,10 @@ void LaserWatch::FollowLevel(const LaserRange& range, const Seen& seen) {
     return;
   }
   if (StereoIsFresh(range.time)) {
-    if (Near(stereo_->over_spot_m, seen.over_spot_m, kAgrees)) {
+    if (Near(stereo_->over_spot_m, seen.over_spot_m, LaserHealth::kAgrees)) {
       level_ = seen;
       step_run_ = 0;
-    } else if (Near(stereo_->over_spot_m, expected_m, kAgrees)) {
+    } else if (Near(stereo_->over_spot_m, expected_m, LaserHealth::kAgrees)) {
       CallWrong(seen.over_spot_m / expected_m);
     }
   } else if (SecondsBetween(*step_since_, range.time) >= kStepUnseen_s) {
@@ -116,8 +114,9 @@ void LaserWatch::AddStereo(Timestamp time, double depth_m, const BeamPose& beam)
   const Seen laser{previous_->time, previous_->range_m * beam.beam_down, beam.camera_height_m};
   if (wrong_) {
     wrong_ratio_ = laser.over_spot_m / seen.over_spot_m;
-    agree_run_ = Near(laser.over_spot_m, seen.over_spot_m, kAgrees) ? agree_run_ + 1 : 0;
-    if (agree_run_ >= kAgreeRun) {
+    agree_run_ =
+        Near(laser.over_spot_m, seen.over_spot_m, LaserHealth::kAgrees) ? agree_run_ + 1 : 0;
+    if (agree_run_ >= LaserHealth::kFinePairs) {
       wrong_ = false;
       step_run_ = 0;
       level_ = laser;
@@ -142,7 +141,7 @@ void LaserWatch::CompareScale(const Seen& laser) {
   const double by_laser = (laser.over_spot_m - reference_->laser.over_spot_m) / climb_m;
   const double by_stereo = (stereo_->over_spot_m - reference_->stereo.over_spot_m) / climb_m;
   if (std::abs(by_laser - 1) > kLaserScale && std::abs(by_stereo - 1) < kStereoScale &&
-      !Near(laser.over_spot_m, stereo_->over_spot_m, kAgrees)) {
+      !Near(laser.over_spot_m, stereo_->over_spot_m, LaserHealth::kAgrees)) {
     CallWrong(laser.over_spot_m / stereo_->over_spot_m);
   }
   reference_ = Reference{laser, *stereo_};

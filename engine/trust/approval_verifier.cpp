@@ -92,7 +92,7 @@ std::string WhyNotFlyable(const Approval& a) {
   }
   return a.clear_radius_m >= Limits::kLeastRadius_m && a.clear_radius_m <= Limits::kMostRadius_m
              ? ""
-             : "The clear radius is outside 0.5 to 25 m";
+             : "The clear radius that is asked for is outside 0.5 to 25 m";
 }
 
 std::string WhyUnbound(const Approval& a) {

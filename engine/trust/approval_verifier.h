@@ -26,19 +26,10 @@
 #include <string>
 #include <vector>
 
+#include "engine/model/approval_limits.h"
 #include "engine/trust/vehicle_authority.h"
 
 namespace palace {
-
-struct ApprovalLimits {
-  static constexpr double kLongest_s = 120;
-  static constexpr double kAhead_s = 1;
-  static constexpr double kReach_m = 100;
-  static constexpr double kDeepest_m = 100;
-  static constexpr double kLeastRadius_m = 0.5;
-  static constexpr double kMostRadius_m = 25;
-  static constexpr double kLeastStop_m = 3;
-};
 
 /// Where the vehicle is, by its own solution, when the approval arrives.
 struct VehicleSituation {

@@ -182,16 +182,14 @@ TEST(Loss, IsToldOfTheChannelsThatLose) {
   for (const Row& row :
        {Row{{Channel(C::kVehiclePose, 50, 0), Channel(C::kImu, 20, 0.8),
              Channel(C::kGps, 5, 0.002)},
-            "In the last 5 s IMU lost 80 % of its messages; of Vehicle pose, IMU, GPS together 52 "
-            "%"},
+            "IMU 80 %"},
         Row{{Channel(C::kVehiclePose, 70, 0.3), Channel(C::kImu, 60, 0.4)},
-            "In the last 5 s IMU lost 40 % of its messages, Vehicle pose 30 %; of Vehicle pose, "
-            "IMU together 35 %"},
+            "IMU 40 %, Vehicle pose 30 %"},
         Row{{Channel(C::kVehiclePose, 35, 0.3), Channel(C::kImu, 100, NAN),
              Channel(C::kCameraLeft, 5, 0.5)},
-            "In the last 5 s Vehicle pose lost 30 % of its messages"},
+            "Vehicle pose 30 %"},
         Row{{Channel(C::kVehiclePose, 50, 0.001), Channel(C::kImu, 100, 0)}, ""}}) {
-    EXPECT_EQ(LossWords(row.channels), row.words);
+    EXPECT_EQ(LosersWords(row.channels), row.words);
   }
 }
 
@@ -204,9 +202,8 @@ TEST(Loss, IsSaidInPercentByChannel) {
   ASSERT_NE(alarm, nullptr);
   EXPECT_EQ(alarm->level, AlarmLevel::kCaution);
   EXPECT_EQ(alarm->text,
-            "In the last 5 s Vehicle pose lost 31 % of its messages, limit 10 %. Check the link; "
-            "beyond 50 % approve "
-            "is blocked.");
+            "31 % of messages lost in 5 s, limit 10 %: Vehicle pose 31 %. Check the link; beyond "
+            "50 % approve is blocked.");
   EXPECT_TRUE(rig.mission.status().can_approve) << "below the limit of the guard";
 }
 

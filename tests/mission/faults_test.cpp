@@ -339,12 +339,43 @@ INSTANTIATE_TEST_SUITE_P(
                  },
                  "Attitude is 3.0° off gravity, limit 1.5° (or the accelerometer errs). "
                  "Approve is blocked."},
+        Sentence{"GravityJustOver", AlarmId::kGravity,
+                 [](MissionRig& r) {
+                   r.navigation.gravity = {true, 1.51};
+                 },
+                 "Attitude is 1.6° off gravity, limit 1.5° (or the accelerometer errs). "
+                 "Approve is blocked."},
+        Sentence{"GravityAgreesAgain", AlarmId::kGravity,
+                 [](MissionRig& r) {
+                   r.navigation.gravity = {true, 0.21};
+                 },
+                 "Attitude must agree with gravity for 5 fixes again: 0.2° off now, limit 1.5° (or "
+                 "the accelerometer errs). Approve is blocked."},
+        Sentence{
+            "GravityUnknown", AlarmId::kGravity,
+            [](MissionRig& r) {
+              r.navigation.gravity = {true, NAN};
+            },
+            "Attitude must agree with gravity for 5 fixes again: not known now, limit 1.5° (or "
+            "the accelerometer errs). Approve is blocked."},
         Sentence{"GpsJump", AlarmId::kGpsJump,
                  [](MissionRig& r) {
                    r.navigation.gps_agreement = {true, false, 8};
                  },
                  "GPS is 8.0 m off the inertial prediction, limit 1.0 m. The position does not "
                  "follow it. Approve is blocked."},
+        Sentence{"GpsJumpedBack", AlarmId::kGpsJump,
+                 [](MissionRig& r) {
+                   r.navigation.gps_agreement = {true, false, 0.04};
+                 },
+                 "GPS must agree with the inertial prediction for 5 fixes again: 0.0 m off now, "
+                 "limit 1.0 m. The position does not follow it. Approve is blocked."},
+        Sentence{"GpsNotCompared", AlarmId::kGpsJump,
+                 [](MissionRig& r) {
+                   r.navigation.gps_agreement = {true, false, NAN};
+                 },
+                 "GPS must agree with the inertial prediction for 5 fixes again: not compared now, "
+                 "limit 1.0 m. The position does not follow it. Approve is blocked."},
         Sentence{"GpsDrift", AlarmId::kGpsJump,
                  [](MissionRig& r) {
                    r.navigation.gps_agreement = {true, true, 0.4};
@@ -368,7 +399,15 @@ INSTANTIATE_TEST_SUITE_P(
         Sentence{"LaserWrong", AlarmId::kLaserWrong,
                  [](MissionRig& r) { SetLaser(r, LaserHealth::State::kWrong); },
                  "Laser reads 0.50 of the height that stereo and motion show, limit 0.85 to 1.15. "
-                 "Heights come from stereo and vision. Approve is blocked."}),
+                 "Heights come from stereo and vision. Approve is blocked."},
+        Sentence{"LaserAgreesAgain", AlarmId::kLaserWrong,
+                 [](MissionRig& r) {
+                   SetLaser(r, LaserHealth::State::kWrong);
+                   r.navigation.laser.ratio = 0.97;
+                 },
+                 "Laser must agree within 10 % for 5 pairs again: reads 0.97 of the height that "
+                 "stereo and motion show, limit 0.85 to 1.15. Heights come from stereo and vision. "
+                 "Approve is blocked."}),
     [](const auto& row) { return row.param.name; });
 
 TEST(LostLaser, BlocksNothingFromHighEnough) {

@@ -135,16 +135,16 @@ TEST(SiteStanding, AProvisionalSiteSaysWhy) {
   site.height_m.three_sigma = 0.03;
   site.hidden_things = 0.154;
   EXPECT_EQ(WhyProvisional(site, settings.slad),
-            "0.15 rocks or holes may be hidden, sure from 8 m above it");
+            "0.15 hidden rocks or holes expected, sure from 8 m above it");
   site.look_height_m = std::nan("");
-  EXPECT_EQ(WhyProvisional(site, settings.slad), "0.15 rocks or holes may be hidden, sure to 0.01");
+  EXPECT_EQ(WhyProvisional(site, settings.slad), "0.15 hidden rocks or holes expected, limit 0.01");
   site.flags = kFlagUnexplained;
   EXPECT_EQ(WhyProvisional(site, settings.slad),
-            "0.15 things may be hidden (unexplained mark), sure to 0.01");
+            "0.15 hidden things expected (unexplained mark), limit 0.01");
   site.flags = kFlagNone;
   site.hidden_things = 0.0103;
   EXPECT_EQ(WhyProvisional(site, settings.slad),
-            "0.011 rocks or holes may be hidden, sure to 0.010");
+            "0.011 hidden rocks or holes expected, limit 0.010");
 }
 
 // Why no look is offered, too: from lower even less of the air would be in view.
@@ -170,7 +170,7 @@ TEST(SiteStanding, WhereTheAirWasNotSeenItSaysWhatShowsIt) {
     LandingSite blind = site;
     blind.hidden_things = 0.14;
     const std::string why = WhyProvisional(blind, settings);
-    EXPECT_EQ(why.rfind("0.14 rocks or holes may be hidden", 0) == 0, row.shown) << why;
+    EXPECT_EQ(why.rfind("0.14 hidden rocks or holes expected", 0) == 0, row.shown) << why;
     site.air_seen_m = 5;
     EXPECT_TRUE(IsAirShown(site));
     site.air_seen_m = NAN;  // nobody asked

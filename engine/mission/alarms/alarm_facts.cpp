@@ -34,7 +34,8 @@ void FillSensors(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   f.since_clock_step_s = m.watch.SinceClockStep(now);
   f.stalled_s = m.watch.SinceStall(now) <= AlarmLimits::told_s ? m.watch.stalled_s() : NAN;
   f.lost_percent = 100 * LostShare(in.vehicle.channels);
-  f.loss = LossWords(in.vehicle.channels);
+  f.unusual_settings = m.facts.unusual_settings;
+  f.losers = LosersWords(in.vehicle.channels);
   f.rebooted = m.watch.rebooted();
   f.gps_error_m = m.watch.gps() ? 3 * m.watch.gps()->sigma_horizontal_m : NAN;
   f.pictures = m.pictures.standing();

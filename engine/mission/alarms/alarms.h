@@ -26,6 +26,7 @@ struct AlarmFacts {
   bool pictures_only = false;
   bool heard_vehicle = false;
   bool recorder_ok = true;
+  std::string unusual_settings{};
   RecordState record{};
   std::string engine_stop{};
   std::string source_damage{};
@@ -41,7 +42,7 @@ struct AlarmFacts {
   double invalid_for_s = NAN;       ///< the same; 0 while they are used
   double silence_s = NAN;           ///< since anything came from the vehicle
   double lost_percent = NAN;        ///< of the samples of the last 5 s: LostShare
-  std::string loss{};               ///< words for it: LossWords
+  std::string losers{};             ///< LosersWords
   double ground_age_s = NAN;        ///< of the site's, in a descent above the commit height
   double gps_error_m = NAN;         ///< 3 sigma, horizontal
   double gps_age_s = NAN;

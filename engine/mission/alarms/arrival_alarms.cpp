@@ -83,7 +83,7 @@ const AlarmRow kRows[] = {
                    double limit) { return f.has_vehicle && f.lost_percent > limit; },
      .text =
          [](const Facts& f, const std::string& limit) {
-           return f.loss + ", limit " + limit + ". Check the link; beyond " +
+           return LossWords(f.lost_percent / 100, limit, f.losers) + ". Check the link; beyond " +
                   LimitWords({GuardLimits::lost_percent, "%", 0}) + " approve is blocked.";
          }},
     {.id = AlarmId::kCameraBlank,

@@ -17,6 +17,13 @@ const AlarmRow kRows[] = {
            const std::string why = f.record.problem.empty() ? "" : ": " + f.record.problem;
            return "Recording is not running" + why + ". Acknowledge to fly without a record.";
          }},
+    {.id = AlarmId::kUnusualLimits,
+     .level = AlarmLevel::kCaution,
+     .present = [](const Facts& f, double) { return f.has_vehicle && !f.unusual_settings.empty(); },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return f.unusual_settings + ". What is offered rests on it: see Tune.";
+         }},
     {.id = AlarmId::kRecordThinned,
      .level = AlarmLevel::kCaution,
      .present = [](const Facts& f,

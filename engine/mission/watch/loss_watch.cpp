@@ -76,31 +76,27 @@ double LostShare(const std::vector<ChannelHealth>& channels) {
   return sent > 0 ? lost / sent : NAN;
 }
 
-std::string LossWords(const std::vector<ChannelHealth>& channels) {
-  std::vector<std::string> counted;
+std::string LosersWords(const std::vector<ChannelHealth>& channels) {
   std::vector<const ChannelHealth*> losing;
   for (const ChannelHealth& channel : channels) {
-    if (IsCounted(channel)) {
-      counted.emplace_back(ChannelName(channel.id));
-      if (channel.lost_share >= kLeastToldShare) {
-        losing.push_back(&channel);
-      }
+    if (IsCounted(channel) && channel.lost_share >= kLeastToldShare) {
+      losing.push_back(&channel);
     }
   }
   std::stable_sort(
       losing.begin(), losing.end(),
       [](const ChannelHealth* a, const ChannelHealth* b) { return a->lost_share > b->lost_share; });
-  std::string words;
+  std::vector<std::string> words;
   for (const ChannelHealth* channel : losing) {
-    const bool first = words.empty();
-    words += (first ? WithNumbers("In the last %.0f s ", kLossWindow_s) : ", ") +
-             ChannelName(channel->id) + (first ? " lost" : "") +
-             WithNumbers(" %.0f %%", 100 * channel->lost_share) + (first ? " of its messages" : "");
+    words.push_back(ChannelName(channel->id) + WithNumbers(" %.0f %%", 100 * channel->lost_share));
   }
-  return words.empty() || counted.size() < 2
-             ? words
-             : words + "; of " + Joined(counted) +
-                   WithNumbers(" together %.0f %%", 100 * LostShare(channels));
+  return Joined(words);
+}
+
+std::string LossWords(double lost_share, const std::string& limit, const std::string& losers) {
+  return WithNumbers("%.0f %% of messages lost in %.0f s, limit ", 100 * lost_share,
+                     kLossWindow_s) +
+         limit + (losers.empty() ? "" : ": " + losers);
 }
 
 LossWatch::Sample LossWatch::SampleOf(const Losses& losses, Timestamp now) {

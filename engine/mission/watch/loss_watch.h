@@ -43,10 +43,11 @@ struct RecentLosses {
 /// Share of the messages of pose, IMU, GPS and laser that is missing lately, of all together; NaN
 /// where none of them is known. Pictures have counts of their own: newer ones replace them.
 double LostShare(const std::vector<ChannelHealth>& channels);
-/// Which channels lost how much of their own, the worst first, and what share of all that is: "In
-/// the last 5 s IMU lost 85 % of its messages, GPS 8 %; of Vehicle pose, IMU, GPS together 51 %".
-/// Empty: none did.
-std::string LossWords(const std::vector<ChannelHealth>& channels);
+/// Which channels lost how much of their own, the worst first: "IMU 85 %, GPS 8 %". Empty: none
+/// did.
+std::string LosersWords(const std::vector<ChannelHealth>& channels);
+/// "51 % of messages lost in 5 s, limit 10 %: IMU 85 %, GPS 8 %".
+std::string LossWords(double lost_share, const std::string& limit, const std::string& losers);
 
 class LossWatch {
  public:

@@ -73,6 +73,7 @@ constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
     "tailwind",
     "trackers_apart",
     "not_on_site",
+    "unusual_limits",
 };
 
 }  // namespace

@@ -94,8 +94,9 @@ enum class AlarmId : std::uint8_t {
   kTailwind,
   kTrackersApart,
   kNotOnSite,
+  kUnusualLimits,
 };
-inline constexpr std::size_t kAlarmCount = 62;
+inline constexpr std::size_t kAlarmCount = 63;
 /// "gps_error".
 const char* AlarmName(AlarmId id);
 /// Empty for a name that no alarm has.

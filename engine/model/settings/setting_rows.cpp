@@ -406,10 +406,10 @@ std::vector<SettingRow> MakeRows() {
     const char* group;
     std::vector<Row> rows;
   };
-  const Section sections[] = {
-      {"Hazard limits", HazardRows()},      {"Lander", LanderRows()},  {"Grid", GridRows()},
-      {"Fusion and ranking", FusionRows()}, {"Stereo", StereoRows()},  {"Tracker", TrackerRows()},
-      {"Mission", MissionRows()},           {"Vehicle", VehicleRows()}};
+  const Section sections[] = {{kHazardGroup, HazardRows()}, {kLanderGroup, LanderRows()},
+                              {"Grid", GridRows()},         {"Fusion and ranking", FusionRows()},
+                              {"Stereo", StereoRows()},     {"Tracker", TrackerRows()},
+                              {"Mission", MissionRows()},   {"Vehicle", VehicleRows()}};
   std::vector<SettingRow> all;
   for (const Section& section : sections) {
     for (const Row& row : section.rows) {

@@ -12,6 +12,10 @@
 
 namespace palace {
 
+/// Groups that say what the ground may be like, and what lands on it.
+inline constexpr const char* kHazardGroup = "Hazard limits";
+inline constexpr const char* kLanderGroup = "Lander";
+
 struct SettingRow {
   SettingInfo info;
   std::function<double(const Settings&)> get;
