@@ -34,8 +34,11 @@ void Pipeline::ApplySettingCommand(Pass& pass, const EngineCommand& command) {
     done = of_record ? settings_.SetRecorded(set->name, set->value, preview_only)
                      : settings_.Set(set->name, set->value, preview_only);
     if (done) {
-      text = info->label + (preview_only ? " previewed " : " ") + FormatSetting(*info, before) +
-             " to " + FormatSetting(*info, set->value);
+      const std::string to = FormatSetting(*info, set->value);
+      text = preview_only && set->value == before
+                 ? info->label + " no longer previewed, stays " + to
+                 : info->label + (preview_only ? " previewed " : " ") +
+                       FormatSetting(*info, before) + " to " + to;
     }
   } else if (std::holds_alternative<ApplySettings>(command.action)) {
     if (when == LimitsApply::kNotNow) {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include <imgui.h>
@@ -26,6 +27,7 @@
 #include "gui/app/surface.h"
 #include "gui/app/view.h"
 #include "gui/app/window_restarts.h"
+#include "gui/panels/fly_panels.h"
 #include "gui/platform/open_file.h"
 #include "gui/platform/screenshot.h"
 
@@ -261,6 +263,10 @@ class StationRun {
     frame.complaint = session_.engine->Complaint();
     ImGuiBackend& backend = surface_.backend();
     backend.SetUiScale(View::FittingScale(frame.width_px, frame.height_px, state_.scale));
+    std::optional<EngineSnapshot> flown;
+    if (snapshot != nullptr && state_.frame.workspace == Workspace::kFly) {
+      snapshot = &AsFlown(*snapshot, flown);
+    }
     const bool pixels = photograph || !surface_.lockstep();
     if (pixels && snapshot) {
       // Offscreen no frame is drawn between two pictures: the 3-D view is where it glides to.

@@ -40,14 +40,18 @@ bool WaitsForAnswer(const Alarm& alarm) {
 
 std::string AlarmWords(const Alarm& alarm, bool of_record) {
   const std::string worst = alarm.worst.empty() ? "" : "worst " + alarm.worst;
-  const std::string ended = worst.empty() ? "Ended: " : "Ended, " + worst + ": ";
+  // Without a figure the words are of the newest; the ones before it may have had another cause.
+  const bool is_last = !alarm.active && worst.empty() && alarm.count > 1;
+  const std::string ended = is_last         ? "Ended, last of " + std::to_string(alarm.count) + ": "
+                            : worst.empty() ? "Ended: "
+                                            : "Ended, " + worst + ": ";
   // While it stands the worst is worth words only where it is not the figure that is told.
   const bool had_worse = alarm.active && !worst.empty() &&
                          AlarmSubject(alarm.text).find(alarm.worst) == std::string::npos;
   return (of_record ? "In the flight: " : "") +
          (alarm.active ? alarm.text : ended + AlarmFinding(alarm.text)) +
          (had_worse ? " At " + worst + "." : "") +
-         (alarm.count > 1 ? " ×" + std::to_string(alarm.count) : "");
+         (alarm.count > 1 && !is_last ? " ×" + std::to_string(alarm.count) : "");
 }
 
 namespace {

@@ -6,6 +6,7 @@
 
 #include "engine/model/approach_side.h"
 #include "engine/model/cell_explanation.h"
+#include "engine/model/mission/alarm_text.h"
 #include "engine/model/mission/approve_offer.h"
 #include "engine/model/mission/refused_lately.h"
 #include "gui/panels/approve_words.h"
@@ -45,6 +46,17 @@ void DrawGuardList(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   EndOverlay();
 }
 
+/// What blocks nothing and speaks against the approval all the same; empty: nothing does.
+std::string CautionToApprove(const MissionStatus& m) {
+  for (const Alarm& alarm : m.alarms) {
+    const bool of_it = alarm.kind == AlarmId::kTailwind || alarm.kind == AlarmId::kUnusualLimits;
+    if (of_it && alarm.active) {
+      return AlarmSubject(alarm.text);
+    }
+  }
+  return {};
+}
+
 /// Until the arm window closes; NaN when nothing runs.
 double SecondsLeft(const EngineSnapshot& snap) {
   return snap.flight->mission.arm_expires
@@ -72,14 +84,16 @@ void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narr
   // Passed checks do not make a confirmed site.
   const bool confirmed = standing == SiteStanding::kConfirmed;
   const std::string all = std::to_string(m.guards.size()) + " checks pass";
+  const std::string told = pass ? CautionToApprove(m) : std::string();
   const std::string words = !pass ? why_not
                             : ui.ui_time_s < state.hold_cut_told_until_s
                                 ? "Hold cut: " + state.hold_cut_by
                             : !no_look.empty() ? "Not flown: " + no_look
                             : !no_turn.empty() ? "Not turned: " + no_turn
+                            : !told.empty()    ? told + "; all " + all
                             : confirmed        ? "All " + all
                                         : std::string(StandingWord(standing)) + "; all " + all;
-  const bool done = pass && confirmed;
+  const bool done = pass && confirmed && told.empty();
   DrawIcon(Canvas(), done ? Icon::kDone : Icon::kCaution, {rect.x + s.Px(18), y}, s.Px(12),
            done ? p.text1 : p.caution);
   const float text_x = rect.x + s.Px(32);

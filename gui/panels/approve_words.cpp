@@ -166,6 +166,26 @@ std::string ThinWords(const EngineSnapshot& snap, bool narrow) {
                    Fixed(100 * thin_m, 0) + " cm is sure to be seen.";
 }
 
+/// The level way to where the slope begins, which pictures need not have shown; empty: it begins
+/// here.
+std::string LevelFirstWords(const MissionStatus& m) {
+  constexpr double kTold_m = 1;
+  if (m.way_W.size() < 2) {
+    return {};
+  }
+  const auto way_m = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    return (to - from).head<2>().norm();
+  };
+  const Eigen::Vector3d &here = m.way_W[0], &slope = m.way_W[1];
+  const double level_m = way_m(here, slope);
+  if (!(level_m >= kTold_m)) {
+    return {};
+  }
+  const bool backs = way_m(slope, m.site_p_WS) > way_m(here, m.site_p_WS);
+  const bool turned = m.approach && m.approach->turned();
+  return (backs && !turned ? ", backs " : ", flies ") + Fixed(level_m, 1) + " m level first";
+}
+
 }  // namespace
 
 std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
@@ -181,6 +201,7 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
   const std::string heading =
       m.approach ? ", heading " + HeadingText(m.approach->heading_rad) : std::string();
   text += side.empty() ? heading : "";
+  text += brief ? "" : LevelFirstWords(m);
   if (std::isfinite(m.time_to_touchdown_s)) {
     text +=
         (narrow ? ", down in " : ". Touchdown in about ") + Fixed(m.time_to_touchdown_s, 0) + " s";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "gui/panels/fly_layout.h"
@@ -17,6 +18,9 @@ const TerrainDecision* SitesInForce(const EngineSnapshot& snap);
 const LandingSite* SiteInView(const EngineSnapshot& snap, std::uint64_t highlighted);
 /// The mission is past APPROVED: the descent panels are shown.
 bool IsDescentView(const EngineSnapshot& snap);
+/// What Fly draws: in the descent what is in force alone, whatever Tune previews. `snap` itself, or
+/// `kept`, which it is copied to.
+const EngineSnapshot& AsFlown(const EngineSnapshot& snap, std::optional<EngineSnapshot>& kept);
 /// Seconds to the touchdown: "22"; "over 7" while the vehicle waits above the site until it is
 /// still, which in gusts takes longer than by the clock.
 std::string TimeToGo(const EngineSnapshot& snap);

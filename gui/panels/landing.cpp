@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -102,8 +103,18 @@ std::string Record(const EngineSnapshot& snap) {
   return text;
 }
 
-/// Nothing is approved on ground that was not seen lately, and from near the ground little is.
-const char* WhatToDoOnHold(const EngineSnapshot& snap) {
+/// Nothing is approved on ground that was not seen lately, and from near the ground little is;
+/// while a check of what is measured fails, nothing is anyhow.
+std::string WhatToDoOnHold(const EngineSnapshot& snap) {
+  constexpr std::array kOfInputs = {GuardId::kLink, GuardId::kAttitude, GuardId::kCameras,
+                                    GuardId::kMap};
+  for (const GuardResult& guard : snap.flight->mission.guards) {
+    const bool of_inputs =
+        std::find(kOfInputs.begin(), kOfInputs.end(), guard.id) != kOfInputs.end();
+    if (of_inputs && !guard.pass) {
+      return guard.reason + ": no site can be selected.";
+    }
+  }
   const TerrainDecision* map = snap.terrain->applied.get();
   return map != nullptr && IsAnyInView(map->selection.sites)
              ? "Select a site once the vehicle has stopped."

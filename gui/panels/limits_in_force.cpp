@@ -2,9 +2,11 @@
 #include <array>
 #include <cmath>
 
+#include "engine/model/mission/map_age.h"
 #include "gui/panels/arrival.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/evidence_row.h"
+#include "gui/widgets/number_text.h"
 
 namespace palace {
 
@@ -17,9 +19,14 @@ constexpr std::array kFirst = {LimitId::kOffPath,     LimitId::kFromCentre,  Lim
                                LimitId::kRoughness,   LimitId::kStep,        LimitId::kGroundAge,
                                LimitId::kApproach,    LimitId::kVisionOutage};
 
+/// Of the site, as its newest map shows it.
+bool IsOfMap(LimitId id) { return id >= LimitId::kSlope && id <= LimitId::kApproach; }
+
 /// What is over its limit, then the list above, then every other limit that somebody enforces.
-/// `landed`: that list alone, of the descent that is over.
-std::vector<EvidenceRow> RowsToShow(const std::vector<LimitRow>& limits, bool landed) {
+/// `landed`: that list alone, of the descent that is over. `map_age`: "8.8 s old" of a map too old
+/// to tell what is; empty while it is new.
+std::vector<EvidenceRow> RowsToShow(const std::vector<LimitRow>& limits, bool landed,
+                                    const std::string& map_age) {
   std::vector<const LimitRow*> order;
   const auto add = [&](const LimitRow* limit) {
     if (limit != nullptr && std::find(order.begin(), order.end(), limit) == order.end()) {
@@ -39,6 +46,9 @@ std::vector<EvidenceRow> RowsToShow(const std::vector<LimitRow>& limits, bool la
     rows.push_back(RowOf(*limit));
     if (landed && std::isfinite(limit->limit)) {  // the limit that it was under
       rows.back().limit = (limit->is_least ? "min " : "max ") + LimitWords(*limit);
+    }
+    if (IsOfMap(limit->id)) {
+      rows.back().age = map_age;
     }
   }
   return rows;
@@ -76,7 +86,10 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
   } else if (unknown > 0) {
     fact = std::to_string(unknown) + " unknown";
   }
-  const std::vector<EvidenceRow> rows = RowsToShow(limits, landed);
+  const std::string map_age = !landed && IsMapOld(snap, ui.silent_s)
+                                  ? AgeText(MapAge(snap) + ui.silent_s) + " old"
+                                  : std::string();
+  const std::vector<EvidenceRow> rows = RowsToShow(limits, landed, map_age);
   const Rect below_head = PanelContent(rect, s);
   const Rect area{below_head.x, below_head.y + s.Px(4), below_head.w, below_head.h - s.Px(4)};
   const std::string beyond = RowsBeyondWords(RowsBeyond(area, rows.size(), s, narrow));

@@ -36,6 +36,15 @@ bool IsDescentView(const EngineSnapshot& snap) {
   }
 }
 
+const EngineSnapshot& AsFlown(const EngineSnapshot& snap, std::optional<EngineSnapshot>& kept) {
+  if (!snap.terrain->preview || !IsDescentView(snap)) {
+    return snap;
+  }
+  kept = snap;
+  kept->terrain.Edit().preview.reset();
+  return *kept;
+}
+
 bool IsCommanded(const MissionStatus& mission) {
   return mission.armed && mission.state >= MissionState::kApproved;
 }

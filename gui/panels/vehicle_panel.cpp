@@ -111,9 +111,12 @@ struct Told {
   Readout Wind() const {
     const double wind = snap.sensors->vehicle ? snap.sensors->vehicle->wind_speed_mps : NAN;
     const double from = snap.sensors->vehicle ? snap.sensors->vehicle->wind_from_rad : NAN;
-    return WindHasDirection(wind) && std::isfinite(from)
-               ? ByStatus("Wind, from", wind, 1, "m/s, " + HeadingText(from))
-               : ByStatus("Wind", wind, 1, "m/s");
+    if (!WindHasDirection(wind) || !std::isfinite(from)) {
+      return ByStatus("Wind", wind, 1, "m/s");
+    }
+    Readout readout = ByStatus("Wind, from", wind, 1, "m/s, " + HeadingText(from));
+    readout.carries_unit = true;
+    return readout;
   }
   /// Fuel or a battery: the vehicle does not say which.
   Readout Energy() const {

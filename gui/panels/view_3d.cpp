@@ -18,6 +18,9 @@ void DrawTicks(const Rect& scene, UiFrame& ui) {
     if (x - width - s.Px(10) < scene.x || y < scene.y + s.Px(10) || y > scene.bottom() - s.Px(10)) {
       continue;
     }
+    // Lines of the picture cross it.
+    FillRect(Canvas(), {x - width - s.Px(13), y - s.Px(8), width + s.Px(6), s.Px(16)},
+             picture::kPlate, s.Fine(3));
     DrawText(ui, s.caption, picture::kPlateText, x - s.Px(10), y, tick.text, Align::kRight);
   }
 }

@@ -78,7 +78,8 @@ std::string FullName(const EvidenceRow& row) {
   const std::string figure = row.spread.empty() ? WithUnit(row) : row.value + " " + row.spread;
   return row.name + " " + figure + " " + row.limit +
          (row.enforcer.empty() ? "" : ", " + row.enforcer) +
-         (row.enforcer.empty() || row.lasts.empty() ? "" : " after " + row.lasts);
+         (row.enforcer.empty() || row.lasts.empty() ? "" : " after " + row.lasts) +
+         (row.age.empty() ? "" : "; " + row.age);
 }
 
 }  // namespace
@@ -128,12 +129,13 @@ void DrawRows(UiFrame& ui, const Rect& rect, std::span<const EvidenceRow> rows, 
     const EvidenceRow& row = rows[i];
     const Rect area{rect.x, y, rect.w, height};
     const float middle = y + height / 2;
+    const ImU32 ink = row.age.empty() ? p.text1 : p.text3;
     float right = rect.right() - m.value_right;
     if (!row.spread.empty() && !narrow) {
       right -= DrawText(ui, s.body, p.text2, right, middle, row.spread, Align::kRight) + s.Px(4);
-      right -= DrawText(ui, s.medium, p.text1, right, middle, row.value, Align::kRight);
+      right -= DrawText(ui, s.medium, ink, right, middle, row.value, Align::kRight);
     } else {
-      right -= DrawText(ui, s.medium, p.text1, right, middle,
+      right -= DrawText(ui, s.medium, ink, right, middle,
                         narrow ? Short(WithUnit(row)) : WithUnit(row), Align::kRight);
     }
     const float name_x = rect.x + s.Px(12);
@@ -151,10 +153,14 @@ void DrawRows(UiFrame& ui, const Rect& rect, std::span<const EvidenceRow> rows, 
     DrawText(ui, s.caption, p.text3, rect.right() - m.limit_right, middle, row.limit,
              Align::kRight);
     const float bar_x = rect.right() - m.actor - m.bar;
+    const float end = rect.right() - s.Px(12);
+    if (!row.age.empty()) {
+      DrawText(ui, s.caption, p.text2, end, middle, row.age, Align::kRight);
+      continue;
+    }
     DrawBar(ui, {bar_x, std::round(middle - s.Px(8) / 2), m.bar, s.Px(8)}, m.wall, row);
     FillRect(Canvas(), {bar_x + m.wall - s.Px(1), y + s.Px(2), s.Px(2), height - s.Px(4)},
              p.white_mark);
-    const float end = rect.right() - s.Px(12);
     DrawText(ui, s.caption, p.text3, end, middle,
              ActorWords(s, row, narrow, end - s.Px(6) - bar_x - m.bar), Align::kRight);
   }

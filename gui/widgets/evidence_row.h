@@ -21,7 +21,8 @@ struct EvidenceRow {
   double share = NAN;      ///< of the limit used: 1 is at the wall. NaN: unknown, or no limit
   double share_3s = NAN;   ///< three sigma of the share; NaN: no whisker
   bool over = false;       ///< as the engine says
-  std::string lasts{};     ///< LimitRow: how long it must be over; behind the enforcer where wide
+  std::string age{};  ///< "8.8 s old": of what was, not what is, grey, in place of bar and enforcer
+  std::string lasts{};  ///< LimitRow: how long it must be over; behind the enforcer where wide
 };
 
 /// The row as the screen shows it.

@@ -47,12 +47,15 @@ void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
   const bool fresh = r.state == Readout::State::kFresh;
   const std::string note = NoteOf(r);
   const bool tight = cell.h < s.Px(60) && !note.empty();  // the note takes a line of its own
-  DrawText(ui, s.caption, p.text2, cell.x, cell.y + s.Px(tight ? 4 : 8),
-           FitWords(s.caption, r.label, cell.w));
   const std::string value = never ? "––" : r.value;
   const float value_y = cell.y + s.Px(tight ? 21 : 31);
   const std::string_view unit =
       WholeClauses(s.caption, r.unit, cell.w - TextWidth(s.readout, value) - s.Px(10));
+  const std::string carried = r.carries_unit ? r.unit.substr(unit.size()) : std::string();
+  const std::string label =
+      carried.empty() ? r.label : r.label.substr(0, r.label.find(',')) + carried;
+  DrawText(ui, s.caption, p.text2, cell.x, cell.y + s.Px(tight ? 4 : 8),
+           FitWords(s.caption, label, cell.w));
   if (unit == "°") {  // stands directly after its digit
     DrawText(ui, s.readout, p.text1, cell.x, value_y, never ? value : value + "°");
   } else {

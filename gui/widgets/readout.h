@@ -18,6 +18,9 @@ struct Readout {
   double age_s = 0;
   std::string why{};   ///< a tooltip: why it is this figure and no other
   std::string note{};  ///< below it, in a word, while it is fresh
+  /// A clause of the unit that has no room behind the value goes into the label: "Wind, 240°" of
+  /// "Wind, from".
+  bool carries_unit = false;
 };
 
 /// Draws into a cell whose top left corner is the label's.

@@ -164,7 +164,9 @@ ReviewPlots MakeReviewPlots(const EngineSnapshot& snap, const FlightRecord* reco
   const double flown_m = ClearRadiusInFlight(snap, record);
   clear.current = Metres(flown_m);
   if (snap.terrain->recorded) {
-    const LandingSite* now = BestSite(snap, snap.terrain->applied.get());
+    // Of half a map nothing is compared.
+    const LandingSite* now =
+        snap.terrain->maps_to_rebuild > 0 ? nullptr : BestSite(snap, snap.terrain->applied.get());
     clear.current = Fixed(flown_m, 1) + " / " + Metres(now != nullptr ? now->safe_distance_m : NAN);
     clear.unit = "m, recorded / re-decided";
   }

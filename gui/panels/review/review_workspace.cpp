@@ -86,6 +86,10 @@ std::string WhyNoDifference(const EngineSnapshot& snap, const RedecidedShare& re
   if (LimitsMoved(snap) == 0) {
     return "No limit differs from those of the flight, so nothing differs. Move one, above.";
   }
+  if (redecided.judged == 0 && snap.terrain->maps_to_rebuild > 0) {
+    return "Maps that are built anew after the jump do not count. Play on, or re-decide the whole "
+           "flight.";
+  }
   if (redecided.judged == 0) {
     return "No map was judged under these limits yet. Play, or re-decide the whole flight.";
   }

@@ -141,6 +141,26 @@ TEST(ApproveWords, TheFirstCheckThatFailsIsSaidByItsReasonElseByItsName) {
   EXPECT_EQ(WhyNotApprove(snap, 0), "Maps are a preview");
 }
 
+// What pictures need not have shown: the vehicle's own height, from here to where the slope begins.
+TEST(ApproveWords, ALevelWayBeforeTheSlopeIsTold) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  MissionStatus& m = snap.flight.Edit().mission;
+  m.armed->confirmed = true;
+  const Eigen::Vector3d site = m.site_p_WS = {3, 4, 0};
+  const auto begins_at = [&](double north_m) {
+    const Eigen::Vector3d here = site + Eigen::Vector3d(-10, 0, -12);
+    m.way_W = {here, here + Eigen::Vector3d(north_m, 0, 0), site};
+    return ApprovalConsequence(snap, false);
+  };
+  EXPECT_NE(begins_at(-2.14).find("heading 040°, backs 2.1 m level first."), std::string::npos);
+  EXPECT_NE(begins_at(5.2).find("heading 040°, flies 5.2 m level first."), std::string::npos);
+  EXPECT_EQ(begins_at(0.9).find("level first"), std::string::npos);
+  m.approach->side = 0;
+  EXPECT_NE(begins_at(-2.14).find(", flies 2.1 m level first"), std::string::npos);
+  m.way_W.clear();
+  EXPECT_EQ(ApprovalConsequence(snap, false).find("level first"), std::string::npos);
+}
+
 TEST(ApproveWords, AnApprovalLeadsToADescentUnlessSomethingSpeaksAgainstTheSite) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
   MissionStatus& m = snap.flight.Edit().mission;

@@ -121,6 +121,31 @@ TEST(FlyFrame, OnHoldItSaysWhetherThereIsAnythingToSelect) {
   }
 }
 
+TEST(FlyFrame, OnHoldACheckThatFailsSaysWhyNothingCanBeSelected) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kHold);
+  for (GuardResult& guard : snap.flight.Edit().mission.guards) {
+    if (guard.id == GuardId::kCameras) {
+      guard.pass = false;
+      guard.reason = "Both cameras repeat their pictures";
+    }
+  }
+  FlyWindow window(1920, 1080, snap);
+  EXPECT_TRUE(
+      HasText(window.ui.items, "Both cameras repeat their pictures: no site can be selected."));
+}
+
+// The bars and the white figures of a map are of what is.
+TEST(FlyFrame, OfAnOldMapTheSitesLimitsAreGreyAndOfTheirAge) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
+  const auto slope = [&] {
+    FlyWindow window(1920, 1080, snap);
+    return window.ui.items.Find("evidence/Slope")->text;
+  };
+  EXPECT_EQ(slope().find(" old"), std::string::npos) << slope();
+  snap.time = AddSeconds(snap.terrain->applied->map_time, 8.8);
+  EXPECT_NE(slope().find("; 8.8 s old"), std::string::npos) << slope();
+}
+
 TEST(FlyMaps, DraggingTheLimitTickSetsTheLimitOnceItIsAnswered) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
   window.ui.MoveTo("tick/slad.max_slope_deg");

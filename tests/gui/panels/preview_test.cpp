@@ -20,6 +20,11 @@ EngineSnapshot WithPreview(MissionState state) {
   return snap;
 }
 
+EngineSnapshot Flown(const EngineSnapshot& snap) {
+  std::optional<EngineSnapshot> kept;
+  return AsFlown(snap, kept);
+}
+
 // What a preview shows is named and commanded nowhere on Fly; maps and pictures that show it say
 // so.
 TEST(Preview, LeavesTheSitesOfFlyToTheMission) {
@@ -27,7 +32,7 @@ TEST(Preview, LeavesTheSitesOfFlyToTheMission) {
                                    MissionState::kDescending, MissionState::kLanded}) {
     for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
       SCOPED_TRACE(MissionStateWord(state));
-      FlyWindow window(size.x, size.y, WithPreview(state));
+      FlyWindow window(size.x, size.y, Flown(WithPreview(state)));
       for (const Item& item : window.ui.items.items()) {
         EXPECT_EQ(item.text.find("+1 "), std::string::npos) << item.name << ": " << item.text;
         EXPECT_NE(item.text, "+1") << item.name;
@@ -35,11 +40,26 @@ TEST(Preview, LeavesTheSitesOfFlyToTheMission) {
         EXPECT_NE(item.text.rfind("applied ", 0), 0u) << item.text;
       }
       EXPECT_EQ(SiteInView(window.snap, 0)->letter, "A");
-      EXPECT_TRUE(HasText(window.ui.items, "PREVIEW"));
       const bool listed = state < MissionState::kDescending;
+      EXPECT_EQ(HasText(window.ui.items, "PREVIEW"), listed);
       EXPECT_EQ(HasText(window.ui.items, "Applied, not the preview"), listed);
       ExpectTextsInPanels(window.ui.items);
     }
+  }
+}
+
+// A vehicle on its way down is watched on the maps that it is held by.
+TEST(Preview, IsNotDrawnOverADescent) {
+  for (const MissionState state : {MissionState::kProposed, MissionState::kArmed}) {
+    EXPECT_NE(Flown(WithPreview(state)).terrain->preview, nullptr) << MissionStateWord(state);
+  }
+  for (const MissionState state : {MissionState::kDescending, MissionState::kHold,
+                                   MissionState::kAborting, MissionState::kLanded}) {
+    const EngineSnapshot snap = WithPreview(state);
+    const EngineSnapshot flown = Flown(snap);
+    EXPECT_EQ(flown.terrain->preview, nullptr) << MissionStateWord(state);
+    EXPECT_EQ(flown.terrain->applied, snap.terrain->applied);
+    EXPECT_NE(snap.terrain->preview, nullptr) << "what Tune shows";
   }
 }
 
@@ -52,7 +72,7 @@ TEST(Preview, ACommandOnFlyNamesASiteOfTheMission) {
 }
 
 TEST(Preview, IsDiscardedWhereItIsShown) {
-  for (const MissionState state : {MissionState::kProposed, MissionState::kDescending}) {
+  for (const MissionState state : {MissionState::kProposed, MissionState::kArmed}) {
     FlyWindow window(1920, 1080, WithPreview(state));
     const auto chip =
         std::find_if(window.ui.items.items().begin(), window.ui.items.items().end(),

@@ -175,6 +175,9 @@ TEST(VehiclePanel, AWindTooWeakToComeFromAnywhereHasNoDirection) {
       EXPECT_EQ(wind->text, row.words);
       ExpectTextsInPanels(window.ui.items);
     }
+    // Where the clause has no room behind the value it stands in the label.
+    EXPECT_EQ(HasText(FlyWindow(1280, 720, snap).ui.items, "Wind, 240°"),
+              std::string(row.label) == "Wind, from");
     EXPECT_TRUE(HasText(FlyWindow(1280, 720, snap).ui.items, "Hdg 0"));
   }
 }
