@@ -51,7 +51,8 @@ std::string CautionToApprove(const MissionStatus& m) {
   for (const Alarm& alarm : m.alarms) {
     const bool of_it = alarm.kind == AlarmId::kTailwind || alarm.kind == AlarmId::kUnusualLimits;
     if (of_it && alarm.active) {
-      return AlarmSubject(alarm.text);
+      const std::string subject = AlarmSubject(alarm.text);
+      return subject.substr(0, subject.find(" ("));
     }
   }
   return {};

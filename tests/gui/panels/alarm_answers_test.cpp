@@ -1,4 +1,5 @@
 // An alarm that waits for an answer can be answered, and is read in full.
+#include "gui/panels/alarm_look.h"
 #include "tests/gui/panels/fly_window.h"
 #include "tests/gui/panels/panel_checks.h"
 
@@ -175,6 +176,20 @@ TEST(AlarmList, RowsKeepTheirPlacesWhileItIsOpen) {
   EXPECT_TRUE(window.bar.history_open);
   EXPECT_TRUE(HasText(window.ui.items, "Ended: Wind 9.0 m/s"));
   EXPECT_EQ(window.ui.items.Find(std::string("acknowledge/") + AlarmName(AlarmId::kWind)), nullptr);
+}
+
+// Three holds may have had three causes: the words are of one.
+TEST(AlarmStrip, OfWhatEndedMoreThanOnceTheWordsAreOfTheLast) {
+  Alarm alarm{AlarmId::kHold, AlarmLevel::kCaution, "Descent on hold: Held by the operator. Wait."};
+  alarm.active = false;
+  EXPECT_EQ(AlarmWords(alarm, false), "Ended: Descent on hold: Held by the operator.");
+  alarm.count = 3;
+  EXPECT_EQ(AlarmWords(alarm, false), "Ended, last of 3: Descent on hold: Held by the operator.");
+  alarm.worst = "0.62 m";
+  EXPECT_EQ(AlarmWords(alarm, false),
+            "Ended, worst 0.62 m: Descent on hold: Held by the operator. ×3");
+  alarm.active = true;
+  EXPECT_NE(AlarmWords(alarm, false).find("×3"), std::string::npos);
 }
 
 // Where the words have no room whole clauses stand, and the pointer tells the rest.

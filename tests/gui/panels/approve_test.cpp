@@ -39,6 +39,35 @@ TEST(FlyApprove, TheListOfChecksEndsWithItsSelection) {
   EXPECT_FALSE(window.fly.approve.show_guards);
 }
 
+// What stands against an approval without blocking it must not hide behind a tick.
+TEST(FlyApprove, ACautionAgainstTheApprovalStandsBesideItsChecks) {
+  struct Row {
+    AlarmId id;
+    const char *text, *words;
+  };
+  for (const Row& row :
+       {Row{AlarmId::kTailwind, "Tailwind 4.2 m/s on the approach, limit 2.5 m/s. Take another.",
+            "Tailwind 4.2 m/s on the approach; all "},
+        Row{AlarmId::kUnusualLimits, "Max roughness 100.0 cm (usually 2.0 cm to 30.0 cm). See.",
+            "Max roughness 100.0 cm; all "}}) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+    MissionStatus& m = snap.flight.Edit().mission;
+    m.armed->confirmed = true;
+    const std::string all = std::to_string(m.guards.size()) + " checks pass";
+    const auto words = [&] {
+      FlyWindow window(1920, 1080, snap);
+      ExpectTextsInPanels(window.ui.items);
+      return window.ui.items.Find("show_checks")->text;
+    };
+    EXPECT_EQ(words(), "All " + all);
+    m.alarms.push_back(
+        {.kind = row.id, .level = AlarmLevel::kCaution, .text = row.text, .active = true});
+    EXPECT_EQ(words(), row.words + all);
+    m.alarms.back().active = false;
+    EXPECT_EQ(words(), "All " + all) << "it is over";
+  }
+}
+
 TEST(FlyApprove, NeverFiresWhenBlockedUnarmedPreviewingOrInReplay) {
   EngineSnapshot blocked = fake::Snapshot(MissionState::kArmed);
   blocked.flight.Edit().mission.can_approve = false;
