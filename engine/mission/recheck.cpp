@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "engine/mission/geometry.h"
 #include "engine/mission/wording.h"
@@ -39,15 +41,22 @@ void FollowAlternative(MissionMemory& m, const MissionInputs& in) {
   m.alternative = stands ? in.terrain.alternative : std::nullopt;
 }
 
-/// A re-check is worth a line when it says something new, or after a while.
-bool IsNews(const std::vector<SiteRecheck>& before, const SiteRecheck& check) {
-  if (before.empty()) {
-    return true;
-  }
+/// A re-check is worth a line of its own when it says something new, or after a while.
+bool IsNews(const SiteRecheck& last, const SiteRecheck& check) {
   const auto id = [](const SiteRecheck& c) { return c.alternative ? c.alternative->id : 0; };
-  const SiteRecheck& last = before.back();
   return last.holds != check.holds || last.verdict != check.verdict || id(last) != id(check) ||
          SecondsBetween(last.time, check.time) >= kRecheckShown_s;
+}
+
+/// The newest always stands, as the limits in force do; a newer one takes its place where it was
+/// worth no line of its own.
+void AddRecheck(std::vector<SiteRecheck>& rechecks, SiteRecheck check) {
+  const std::size_t count = rechecks.size();
+  if (count >= 2 && !IsNews(rechecks[count - 2], rechecks.back())) {
+    rechecks.back() = std::move(check);
+  } else {
+    rechecks.push_back(std::move(check));
+  }
 }
 
 void RecordRecheck(MissionMemory& m, const MissionInputs& in, SiteVerdict verdict) {
@@ -59,9 +68,7 @@ void RecordRecheck(MissionMemory& m, const MissionInputs& in, SiteVerdict verdic
   check.verdict = verdict;
   check.reason = verdict == SiteVerdict::kHolds ? m.site.newest().reason : m.site.reason();
   check.alternative = m.alternative;
-  if (IsNews(m.status.rechecks, check)) {
-    m.status.rechecks.push_back(std::move(check));
-  }
+  AddRecheck(m.status.rechecks, std::move(check));
 }
 
 /// Before an approval as the list says of the site, which is steady over maps: what is approved as

@@ -261,6 +261,26 @@ TEST(Recheck, OneNoisyMapDoesNotStopADescent) {
   ASSERT_TRUE(rig.RunUntil(MissionState::kLanded, 30)) << rig.mission.status().why;
 }
 
+// The limits in force are of the newest map: the last line of the re-checks tells the same figure.
+TEST(Recheck, TheLastLineIsOfTheNewestMapAndOnlySomeStay) {
+  MissionRig rig;
+  Descend(rig);
+  const std::size_t before = rig.mission.status().rechecks.size();
+  for (int i = 0; i < 50; ++i) {
+    rig.Site(101)->safe_distance_m = 4 + 0.01 * i;
+    rig.Step();
+    const MissionStatus& m = rig.mission.status();
+    ASSERT_EQ(m.rechecks.back().safe_distance_m, rig.Site(101)->safe_distance_m);
+    ASSERT_EQ(m.rechecks.back().safe_distance_m, m.armed_now->safe_distance_m);
+  }
+  const std::vector<SiteRecheck>& lines = rig.mission.status().rechecks;
+  EXPECT_LE(lines.size(), before + 6);
+  EXPECT_GE(lines.size(), before + 4);
+  for (std::size_t i = before; i + 2 < lines.size(); ++i) {
+    EXPECT_GE(SecondsBetween(lines[i].time, lines[i + 1].time), 0.99) << i;
+  }
+}
+
 TEST(Recheck, DegradedIsACautionAndTheDescentGoesOn) {
   MissionRig rig;
   Descend(rig);
