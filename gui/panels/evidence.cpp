@@ -72,7 +72,9 @@ void DrawEvidencePanel(const EngineSnapshot& snap, const Rect& rect, bool folded
   if (site == nullptr) {
     DrawPanelFrame(ui, rect, "Evidence");
     DrawText(ui, s.body, s.palette.text2, rect.x + s.Px(12), rect.y + s.Px(48),
-             "No site to show evidence for.");
+             snap.flight->mission.state == MissionState::kAborting
+                 ? "In a wave-off no site is proposed."
+                 : "No site to show evidence for.");
     return;
   }
   const bool frozen = snap.flight->mission.armed.has_value();
