@@ -242,6 +242,12 @@ TEST(SiteSelection, NoPlaceGivesTheSharesOfTheCauses) {
   EXPECT_EQ(Select(MakeMap(20, 20, 0.15, Flat())).none_reason,
             "100 % too near a hazard; the map holds a disc 2.850 m across, the lander's clear one "
             "is 4.600 m");
+  // One cell of a thousand and more is no share that a person reads.
+  ElevationMap nearly = MakeMap(40, 40, 0.15, nothing);
+  nearly.state.cells()[820] = CellState::kMeasured;
+  nearly.height_m.cells()[820] = 0;
+  EXPECT_EQ(Select(nearly).none_reason.find(" 0 %"), std::string::npos)
+      << Select(nearly).none_reason;
 }
 
 TEST(SiteSelection, NoPlaceNamesTheFlagThatMostCellsHave) {

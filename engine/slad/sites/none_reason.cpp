@@ -58,9 +58,9 @@ std::string NoneReason(const ElevationMap& map, const HazardMaps& hazards,
                    [](const Part& a, const Part& b) { return a.count > b.count; });
   std::string text;
   for (const Part& part : parts) {
-    if (part.count > 0) {
-      text += (text.empty() ? "" : ", ") + WithNumbers("%.0f", 100.0 * part.count / total) + " % " +
-              part.name;
+    const double percent = 100.0 * part.count / total;
+    if (std::round(percent) > 0 || (part.count > 0 && text.empty())) {  // nobody is told "0 %"
+      text += (text.empty() ? "" : ", ") + WithNumbers("%.0f", percent) + " % " + part.name;
     }
   }
   const GridGeometry& g = hazards.geometry;
