@@ -242,11 +242,11 @@ TEST(SiteSelection, NoPlaceGivesTheSharesOfTheCauses) {
   EXPECT_EQ(Select(MakeMap(20, 20, 0.15, Flat())).none_reason,
             "100 % too near a hazard; the map holds a disc 2.850 m across, the lander's clear one "
             "is 4.600 m");
-  // One cell of thousands is no share that a person reads.
+  // One cell of thousands is not none.
   ElevationMap nearly = MakeMap(60, 60, 0.15, testing::Slope(Rad(15), 0));
   nearly.state.at(30, 30) = CellState::kUnknown;
   nearly.height_m.at(30, 30) = kUnknownValue;
-  EXPECT_EQ(Select(nearly).none_reason, "100 % slope");
+  EXPECT_EQ(Select(nearly).none_reason, "100 % slope, under 1 % unknown");
 }
 
 TEST(SiteSelection, NoPlaceNamesTheFlagThatMostCellsHave) {

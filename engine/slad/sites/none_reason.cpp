@@ -58,9 +58,11 @@ std::string NoneReason(const ElevationMap& map, const HazardMaps& hazards,
                    [](const Part& a, const Part& b) { return a.count > b.count; });
   std::string text;
   for (const Part& part : parts) {
-    const double percent = 100.0 * part.count / total;
-    if (std::round(percent) > 0 || (part.count > 0 && text.empty())) {  // nobody is told "0 %"
-      text += (text.empty() ? "" : ", ") + WithNumbers("%.0f", percent) + " % " + part.name;
+    if (part.count > 0) {
+      // However few, they may be what the others are too near to.
+      const double percent = std::round(100.0 * part.count / total);
+      text += (text.empty() ? "" : ", ") +
+              (percent > 0 ? WithNumbers("%.0f %% ", percent) : "under 1 % ") + part.name;
     }
   }
   const GridGeometry& g = hazards.geometry;
